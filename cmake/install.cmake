@@ -29,6 +29,7 @@ install(TARGETS gloam_frames gloam_pictures gloam_all EXPORT gloamTargets
 install(TARGETS gloam_scene EXPORT gloamSceneTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 file(GLOB public_headers LIST_DIRECTORIES true CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/host/*/include/gloam)
+list(FILTER public_headers EXCLUDE REGEX "/choose/")  # gloam::measure is not installed
 install(DIRECTORY ${public_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   COMPONENT development FILES_MATCHING PATTERN "*.h")
 

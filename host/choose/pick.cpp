@@ -1,11 +1,18 @@
 #include "choose/pick.h"
 
 #include <algorithm>
+#include <chrono>
 #include <map>
 #include <memory>
 
+#include "base/elapsed.h"
+#include "base/lists.h"
+#include "base/memory.h"
+#include "base/temporary_folder.h"
+#include "choose/document.h"
 #include "gloam/error.h"
 #include "gloam/metrics.h"
+#include "gloam/pick.h"
 #include "measure/effects.h"
 #include "measure/schedule.h"
 #include "measure/similarity.h"
@@ -209,4 +216,91 @@ Picked pick(const Subject& subject, const PickOptions& options, Device& device) 
   return Search(subject, options, device).run();
 }
 
+std::string effect_to_pick(const std::vector<std::string>& truths, const std::vector<std::string>& techniques) {
+  std::vector<std::string> effects;
+  if (techniques.empty()) effects = effects_in(truths);
+  for (const std::string& name : techniques) add_new(effects, measured_plane(find_technique(name)));
+  if (effects.size() > 1)
+    throw UsageError("pick: {} are several effects; give the truth, or the techniques, of one", enumerate(effects));
+  return effects.empty() || effects.front().empty() ? "ao" : effects.front();
+}
+
+std::vector<const Technique*> techniques_to_pick(const std::vector<std::string>& names, const std::string& effect,
+                                                 std::vector<Skipped>& left_out) {
+  std::vector<const Technique*> techniques;
+  const bool all = names.empty();
+  for (const std::string& name : all ? techniques_making({effect}) : names) {
+    const Technique& technique = find_technique(name);
+    if (const std::string why = why_not_measured(technique, {effect}); !why.empty())
+      throw UsageError("--techniques {}: {}; there are {}", name, why, enumerate(techniques_making({effect})));
+    if (const std::string why = needs_naming(technique); all && !why.empty())
+      left_out.push_back({name, "", "", why});
+    else if (std::find(techniques.begin(), techniques.end(), &technique) == techniques.end())
+      techniques.push_back(&technique);
+  }
+  return techniques;
+}
+
+PickedOnFrame pick_on_frame(const OwnFrame& own, const std::string& effect, PickOptions options,
+                            const SceneOptions& scene, const std::vector<Skipped>& left_out, Device& device,
+                            const TellNotes& tell) {
+  const auto start = std::chrono::steady_clock::now();
+  PickedOnFrame made{own_subject(own, effect, options.techniques, scene, tell), {}};
+  if (own.truths.empty() && made.subject.truth) options.limit.extend(seconds_since(start));
+  made.picked = pick(made.subject, options, device);
+  made.picked.skipped.insert(made.picked.skipped.end(), left_out.begin(), left_out.end());
+  return made;
+}
+
 }  // namespace gloam::bench
+
+namespace gloam {
+namespace {
+
+unsigned long long affordable(const std::string& name, unsigned long long bytes) {
+  if (bytes <= available_memory()) return bytes;
+  throw Error(
+      "{}: would take about {} of memory, and {} are available; name fewer techniques, or crop or shrink the frame",
+      name, memory_in_words(bytes), memory_in_words(available_memory()));
+}
+
+}  // namespace
+
+PickResult pick_setting(const std::string& frame, const PickRequest& request, Device& device) {
+  using namespace bench;
+  if (request.budget.has_value() == request.error.has_value())
+    throw UsageError("pick: give either a budget (milliseconds) or an error (such as 0.02)");
+  const PickBy by = value_of(request.by, "by", pick_figures);
+  if (by == PickBy::flicker) throw UsageError("by flicker: is of a shot, and {} is one frame", frame);
+  std::vector<Skipped> left_out;
+  const std::string effect = effect_to_pick(request.truths, request.techniques);
+  PickOptions options{.techniques = techniques_to_pick(request.techniques, effect, left_out),
+                      .budget = request.budget,
+                      .error = request.error,
+                      .by = by,
+                      .rounds = request.rounds,
+                      .progress = request.progress};
+  if (request.seconds) options.limit = TimeLimit(*request.seconds);
+  const TemporaryFolder scratch("pick");
+  const SceneOptions scene{
+      .folder = scratch.path(), .rays = request.rays, .radius = request.radius, .progress = request.progress};
+  PickResult result;
+  const auto tell = [&](const std::vector<std::string>& notes) { add_new(result.notes, notes); };
+  const OwnFrame own{frame, request.reading, request.truths, &affordable};
+  const PickedOnFrame made = pick_on_frame(own, effect, options, scene, left_out, device, tell);
+  const Picked& picked = made.picked;
+  for (const Choice& choice : picked.finalists) {
+    const Variation& v = choice.variation;
+    result.finalists.push_back(
+        {v.technique->name, v.name(), resolution_of(v), choice.ms, choice.rmse, choice.ssim, choice.flip});
+  }
+  result.best = picked.best;
+  result.error_to = picked.truth;
+  result.has_truth = picked.has_truth;
+  result.radius = made.subject.radius;
+  if (!picked.has_truth) tell({stand_in_warning(picked)});
+  result.json = document_of(picked, by, device.info()).dump();
+  return result;
+}
+
+}  // namespace gloam

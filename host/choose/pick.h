@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "measure/contest.h"
+#include "measure/own_subject.h"
 
 namespace gloam::bench {
 
@@ -23,5 +24,23 @@ struct Picked {
 /// scenes (of effects other than ambient occlusion: of the first technique). If one of the techniques makes an image of only the first of two views, times and errors of all are those of the first
 /// view. Throws Error that names the nearest miss if nothing is within the bound.
 Picked pick(const Subject& subject, const PickOptions& options, Device& device);
+
+/// The plane that is picked for: that of the truths, else of the techniques that are named. Throws UsageError for several.
+std::string effect_to_pick(const std::vector<std::string>& truths, const std::vector<std::string>& techniques);
+
+/// The techniques of these names, or all that make the effect but for those of `left_out`, which are tried only if they are named. Throws
+/// UsageError for one that does not make it.
+std::vector<const Technique*> techniques_to_pick(const std::vector<std::string>& names, const std::string& effect,
+                                                 std::vector<Skipped>& left_out);
+
+struct PickedOnFrame {
+  Subject subject;
+  Picked picked;
+};
+
+/// Reads a frame and picks. Tracing a truth does not count as time. `left_out`: as of `techniques_to_pick`.
+PickedOnFrame pick_on_frame(const OwnFrame& own, const std::string& effect, PickOptions options,
+                            const SceneOptions& scene, const std::vector<Skipped>& left_out, Device& device,
+                            const TellNotes& tell);
 
 }  // namespace gloam::bench

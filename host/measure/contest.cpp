@@ -254,6 +254,9 @@ class Contest {
 
 }  // namespace
 
+const Choices<PickBy> pick_figures = {
+    {"rmse", PickBy::rmse}, {"ssim", PickBy::ssim}, {"flip", PickBy::flip}, {"flicker", PickBy::flicker}};
+
 const char* name_of(PickBy by) {
   if (by == PickBy::flicker) return "flicker";
   return by == PickBy::ssim ? "SSIM" : by == PickBy::flip ? "FLIP" : "RMSE";

@@ -7,12 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "base/words.h"
 #include "measure/measurement.h"
 
 namespace gloam::bench {
 
 /// The figure that decides which image is nearer to the truth.
 enum class PickBy { rmse, ssim, flip, flicker };  // flicker: of sequences
+/// Their words: "rmse", "ssim", "flip" and "flicker".
+extern const Choices<PickBy> pick_figures;
 /// "RMSE", "SSIM", "FLIP" or "flicker".
 const char* name_of(PickBy by);
 

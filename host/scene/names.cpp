@@ -18,6 +18,12 @@ const SceneCamera& named_camera(const Scene& scene, const std::string& name) {
                    scene.name, suggestion(name, names), enumerate(names));
 }
 
+Scene load_scene(const NamedScene& named, const TellNotes& tell) {
+  Scene scene = load_scene(named.name, named.settings);
+  tell(scene.notes);
+  return scene;
+}
+
 NamedScene scene_in_attribute(const std::string& attribute) {
   const size_t colon = attribute.find(": ");
   NamedScene named{attribute.substr(0, colon), {}};

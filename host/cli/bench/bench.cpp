@@ -157,8 +157,8 @@ void bench_command(const BenchCommand& given) {
   if (!flags.frame.empty()) {
     for (const std::string& effect : options.effects) {
       MeasureOptions of_effect = for_effect(options, effect);
-      Subject subject =
-          own_subject(flags.frame, flags.frame_flags, flags.truths, effect, of_effect.techniques, options.scene);
+      Subject subject = own_subject(own_frame(flags.frame, flags.frame_flags, flags.truths), effect,
+                                    of_effect.techniques, options.scene, note);
       written.check(subject);
       memory = std::max(memory, subject.memory_bytes);
       if (effect == options.effects.front()) radii.emplace_back(subject.name, report_of(subject, options.techniques));
@@ -170,7 +170,7 @@ void bench_command(const BenchCommand& given) {
     for (const std::string& effect : options.effects) {
       MeasureOptions of_effect = for_effect(options, effect);
       const auto start = std::chrono::steady_clock::now();
-      Subject subject = builtin_subject(*options.scenes[i], effect, of_effect.techniques, options.scene);
+      Subject subject = builtin_subject(*options.scenes[i], effect, of_effect.techniques, options.scene, note);
       written.check(subject);
       limit.extend(seconds_since(start));  // capturing and tracing are done once, and their files stay
       if (effect == options.effects.front()) radii.emplace_back(subject.name, report_of(subject, options.techniques));

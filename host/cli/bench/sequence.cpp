@@ -88,7 +88,7 @@ Subject subject_of(const BuiltinShot& shot, int frame, const MeasureOptions& opt
   Scene scene = scene_at(shot, frame);
   scene.cameras.front() = shot.shot->camera(seconds_of_frame(frame));
   return scene_subject(fmt::format("{}_{}_{:04}", shot.scene->name, shot.shot->name, frame), shot.scene->kind,
-                       std::move(scene), "ao", options.techniques, making);
+                       std::move(scene), "ao", options.techniques, making, note);
 }
 
 void add_builtin(MeasuredSequence& sequence, const BuiltinShot& shot, const std::vector<int>& frames,
@@ -143,9 +143,9 @@ void add_own(MeasuredSequence& sequence, const SequenceBenchFlags& flags, const 
     making.in_sequence = InSequence{.camera_before = {}, .scene_before = nullptr, .seed = frame.number};
     show_status(fmt::format("frame {}", frame.number), double(sequence.frames.size()) / double(frames.size()));
     try {
-      add_frame(
-          sequence, frame.number,
-          own_subject(paths.front(), reading, {paths.begin() + 1, paths.end()}, "ao", options.techniques, making));
+      add_frame(sequence, frame.number,
+                own_subject(own_frame(paths.front(), reading, {paths.begin() + 1, paths.end()}), "ao",
+                            options.techniques, making, note));
     } catch (const UsageError&) {
       throw;
     } catch (const Error& error) {

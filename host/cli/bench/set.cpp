@@ -134,7 +134,7 @@ class SetBench {
   Subject subject_of(const Target& target, const score::TargetFrame& at, const MeasureOptions& options,
                      const SceneOptions& making) const {
     Subject subject =
-        own_subject(at.frame.string(), FrameFlags{}, at.truths, target.effect, options.techniques, making);
+        own_subject(own_frame(at.frame.string(), {}, at.truths), target.effect, options.techniques, making, note);
     subject.name = target.name;
     subject.scene_class = target.scene_class;
     if (options.ladder == LadderFor::none) subject.truths.reset();

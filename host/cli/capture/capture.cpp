@@ -7,7 +7,6 @@
 
 #include "base/elapsed.h"
 #include "cli/capture/flags.h"
-#include "cli/capture/moving_scene.h"
 #include "cli/capture/result.h"
 #include "cli/capture/shots.h"
 #include "cli/flags/shot_flags.h"
@@ -18,6 +17,7 @@
 #include "gloam/scene/light_field_capture.h"
 #include "gloam/scene/sky_map.h"
 #include "gloam/visualise.h"
+#include "scene/moving_scene.h"
 
 namespace gloam::cli {
 namespace {
@@ -162,7 +162,7 @@ void capture_command(const CaptureCommand& flags) {
     shots = shots_of_path(flags, *path);
     check_files(flags, shots);
   }
-  MovingScene scene(flags.scene, path ? path->recipe : nullptr, outlines);
+  MovingScene scene(flags.scene.named(), path ? path->recipe : nullptr, outlines, note);
   if (!flags.display.empty()) shots = shots_of_display(flags, scene.tracer(), options, path ? &*path : nullptr);
   if (shots.empty()) shots.push_back(single_shot(flags, scene.scene(), options.width, options.height));
   check_files(flags, shots);

@@ -4,7 +4,6 @@
 
 #include "camera/camera_json.h"
 #include "gloam/error.h"
-#include "scene/names.h"
 
 namespace gloam::cli {
 namespace {
@@ -30,11 +29,7 @@ void SceneFlags::add_settings_to(CLI::App& app) {
       ->take_all();
 }
 
-Scene SceneFlags::load() const {
-  Scene loaded = load_scene(scene, parse_settings(settings, "--set"));
-  note(loaded.notes);
-  return loaded;
-}
+NamedScene SceneFlags::named() const { return {scene, parse_settings(settings, "--set")}; }
 
 Settings SceneFlags::take_dotted_settings() {
   Settings dotted;
@@ -48,14 +43,6 @@ Settings SceneFlags::take_dotted_settings() {
   }
   settings = own;
   return dotted;
-}
-
-SceneFlags scene_named_by(const std::string& attribute) {
-  const NamedScene named = scene_in_attribute(attribute);
-  SceneFlags flags;
-  flags.scene = named.name;
-  for (const auto& [name, value] : named.settings) flags.settings.push_back(name + "=" + value);
-  return flags;
 }
 
 void SceneCameraFlags::add_to(CLI::App& app) {

@@ -8,6 +8,7 @@
 
 #include "cli/flags/options.h"
 #include "gloam/scene/scene.h"
+#include "scene/names.h"
 
 namespace gloam::cli {
 
@@ -20,14 +21,11 @@ struct SceneFlags {
   std::vector<std::string> settings;
   /// Adds the settings only: the scene itself is an argument of `capture` and a flag of other commands.
   void add_settings_to(CLI::App& app);
-  /// Loads the scene; repairs become notes.
-  Scene load() const;
+  /// By its settings as they are. Throws UsageError for one without a value.
+  NamedScene named() const;
   /// Removes and returns the settings of techniques, which have a dot in the name: {"hbao+.bias", "0.2"}.
   Settings take_dotted_settings();
 };
-
-/// The scene that a frame's header names (gloamScene), as a name and settings; empty if it names none.
-SceneFlags scene_named_by(const std::string& attribute);
 
 /// The camera of a scene.
 struct SceneCameraFlags {

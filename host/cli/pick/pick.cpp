@@ -1,17 +1,14 @@
 // gloam pick FRAME.exr --budget 20ms | --error 0.02: the setting to use
-#include "choose/pick.h"
-
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <memory>
 
-#include "base/elapsed.h"
 #include "base/temporary_folder.h"
+#include "choose/document.h"
 #include "cli/bench/subjects.h"
 #include "cli/flags/shot_flags.h"
 #include "cli/flags/time_budget.h"
@@ -38,45 +35,16 @@ struct PickCommand : DeviceFlags {
   const CLI::App* app = nullptr;
 };
 
-const Choices<PickBy> figures = {
-    {"rmse", PickBy::rmse}, {"ssim", PickBy::ssim}, {"flip", PickBy::flip}, {"flicker", PickBy::flicker}};
-
-/// The plane that is picked for: that of the truths, else of the techniques that are named.
-std::string effect_for(const PickCommand& flags) {
-  if (FramePattern::is_pattern(flags.frame)) return "ao";
-  std::vector<std::string> effects;
-  if (flags.techniques.empty()) {
-    effects = effects_in(flags.truths);
-  } else {
-    for (const std::string& name : split_list(flags.techniques, "--techniques"))
-      add_new(effects, measured_plane(find_technique(name)));
-  }
-  if (effects.size() > 1)
-    throw UsageError("pick: {} are several effects; give the truth, or the techniques, of one", enumerate(effects));
-  return effects.empty() || effects.front().empty() ? "ao" : effects.front();
+std::vector<std::string> named_techniques(const PickCommand& flags) {
+  return flags.techniques.empty() ? std::vector<std::string>() : split_list(flags.techniques, "--techniques");
 }
 
-/// `left_out`: techniques that are tried only if the user names them.
-PickOptions options_of(const PickCommand& flags, const std::string& effect, std::vector<Skipped>& left_out) {
+/// Without techniques.
+PickOptions options_of(const PickCommand& flags) {
   if (flags.budget.has_value() == flags.error.has_value())
     throw UsageError("pick: give either --budget (a time, such as 20ms) or --error (such as 0.02)");
-  PickOptions options;
-  options.budget = flags.budget;
-  options.by = flags.by;
-  options.error = flags.error;
-  options.rounds = flags.rounds;
-  options.progress = show_status;
-  const bool all = flags.techniques.empty();
-  for (const std::string& name : all ? techniques_making({effect}) : split_list(flags.techniques, "--techniques")) {
-    const Technique& technique = find_technique(name);
-    if (const std::string why = why_not_measured(technique, {effect}); !why.empty())
-      throw UsageError("--techniques {}: {}; there are {}", name, why, enumerate(techniques_making({effect})));
-    if (const std::string why = needs_naming(technique); all && !why.empty())
-      left_out.push_back({name, "", "", why});
-    else if (std::find(options.techniques.begin(), options.techniques.end(), &technique) == options.techniques.end())
-      options.techniques.push_back(&technique);
-  }
-  return options;
+  return {
+      .budget = flags.budget, .error = flags.error, .by = flags.by, .rounds = flags.rounds, .progress = show_status};
 }
 
 /// The given flags for reading the frame.
@@ -102,42 +70,6 @@ std::string run_line(const PickCommand& flags, const Variation& v) {
   return line + flags.as_text() + reading_flags(*flags.app);
 }
 
-Json entry_of(const Choice& choice) {
-  Json entry = {{"technique", choice.variation.technique->name},
-                {"preset", choice.variation.name()},
-                {"resolution", choice.variation.resolution == 1 ? "full" : choice.variation.variant},
-                {"ms", choice.ms},
-                {"rmse", choice.rmse},
-                {"ssim", choice.ssim ? Json(*choice.ssim) : Json(nullptr)}};
-  if (choice.flip) entry["flip"] = *choice.flip;
-  return entry;
-}
-
-Json document_of(const Picked& picked, const std::string& command, const std::string& by, const DeviceInfo& device) {
-  Json document = {{"command", command}};
-  document.update(entry_of(picked.finalists[picked.best]));
-  document["device"] = device.name;
-  document["error_to"] = picked.truth;
-  document["by"] = by;
-  document["finalists"] = Json::array();
-  for (const Choice& choice : picked.finalists) document["finalists"].push_back(entry_of(choice));
-  document["skipped"] = Json::array();
-  for (const Skipped& s : picked.skipped)
-    document["skipped"].push_back({{"technique", s.technique}, {"preset", s.preset}, {"why", s.why}});
-  document["left_out"] = Json::array();
-  for (const Skipped& s : picked.left_out)
-    document["left_out"].push_back({{"technique", s.technique}, {"preset", s.preset}, {"why", s.why}});
-  return document;
-}
-
-std::string stand_in_warning(const Picked& picked) {
-  return fmt::format(
-      "NO TRUTH: errors are to {}: what errs as that does looks nearer to the truth than it is; --truth REF.exr takes "
-      "a ray-traced image "
-      "(gloam reference, or a renderer's own)",
-      picked.truth);
-}
-
 /// "medium and high of gtao: low takes 31 ms already; the time was over for 12 settings (--time 5m, --all)".
 void print_left_out(const Picked& picked) {
   std::map<std::string, std::vector<std::string>> slow;
@@ -160,8 +92,8 @@ void print(const Picked& picked, PickBy by, const DeviceInfo& device) {
   for (size_t i = 0; i < picked.finalists.size(); ++i) {
     const Choice& c = picked.finalists[i];
     rows.push_back({i == picked.best ? ">" : "", c.variation.technique->name, c.variation.name(),
-                    c.variation.resolution == 1 ? "full" : c.variation.variant, fmt::format("{:.2f}", c.ms),
-                    fmt::format("{:.4f}", c.rmse), c.ssim ? fmt::format("{:.4f}", *c.ssim) : "-"});
+                    resolution_of(c.variation), fmt::format("{:.2f}", c.ms), fmt::format("{:.4f}", c.rmse),
+                    c.ssim ? fmt::format("{:.4f}", *c.ssim) : "-"});
     if (has_flip) rows.back().push_back(fmt::format("{:.4f}", *c.flip));
   }
   print_table(rows, 4);
@@ -195,11 +127,14 @@ void pick_shot(const PickCommand& flags, const PickOptions& options, const std::
 
 void pick_command(const PickCommand& flags) {
   std::vector<Skipped> left_out;
-  const std::string effect = effect_for(flags);
-  PickOptions options = options_of(flags, effect, left_out);
-  if (FramePattern::is_pattern(flags.frame) && flags.app->get_option("--time")->count() > 0)
+  const bool is_shot = FramePattern::is_pattern(flags.frame);
+  const std::vector<std::string> named = named_techniques(flags);
+  const std::string effect = is_shot ? "ao" : effect_to_pick(flags.truths, named);
+  PickOptions options = options_of(flags);
+  options.techniques = techniques_to_pick(named, effect, left_out);
+  if (is_shot && flags.app->get_option("--time")->count() > 0)
     throw UsageError("--time: of a shot all settings are tried; leave it out, or name fewer --techniques or --frames");
-  if (FramePattern::is_pattern(flags.frame)) return pick_shot(flags, options, left_out);
+  if (is_shot) return pick_shot(flags, options, left_out);
   if (flags.choice.frames) throw UsageError("--frames: is for a shot, and {} is one frame", flags.frame);
   if (options.by == PickBy::flicker)
     throw UsageError("--by flicker: is of a shot, and {} is one frame; write its number as in shot.####.exr",
@@ -211,18 +146,16 @@ void pick_command(const PickCommand& flags) {
   const TemporaryFolder scratch("pick");
   const SceneOptions scene = truths_in(scratch.path(), flags);
   Device device = flags.open();
-  const auto start = std::chrono::steady_clock::now();
-  const Subject subject = own_subject(flags.frame, flags.frame_flags, flags.truths, effect, options.techniques, scene);
-  // Tracing a truth is done once, and does not count.
-  if (flags.truths.empty() && subject.truth) options.limit.extend(seconds_since(start));
-  const RadiusReport radius = report_of(subject, options.techniques);
-  Picked picked = pick(subject, options, device);
-  picked.skipped.insert(picked.skipped.end(), left_out.begin(), left_out.end());
+  const PickedOnFrame made = pick_on_frame(own_frame(flags.frame, flags.frame_flags, flags.truths), effect, options,
+                                           scene, left_out, device, note);
+  const Picked& picked = made.picked;
+  const RadiusReport radius = report_of(made.subject, options.techniques);
   erase_status();
   const std::string command = run_line(flags, picked.finalists[picked.best].variation);
-  Json document = document_of(picked, command, word_for(flags.by, figures), device.info());
+  Json document = {{"command", command}};
+  document.update(document_of(picked, flags.by, device.info()));
   radius.add_to(document);
-  document["memory_bytes"] = subject.memory_bytes;
+  document["memory_bytes"] = made.subject.memory_bytes;
   if (!picked.has_truth) note({stand_in_warning(picked)});
   document["notes"] = picked.has_truth ? Json::array() : Json::array({stand_in_warning(picked)});
   flags.json.write(document);
@@ -246,7 +179,7 @@ void add_pick(CLI::App& app) {
   add_number(*command, "--error", flags->error, {0, 1},
              "RMSE to the truth; with --by ssim 1 - SSIM, with --by flip FLIP")
       ->type_name("ERROR");
-  add_choice(*command, "--by", flags->by, figures,
+  add_choice(*command, "--by", flags->by, pick_figures,
              "what decides which image is nearer; default rmse; ssim minds noise and lost edges, flip what an eye "
              "sees, flicker, of a "
              "shot, what moves without reason");

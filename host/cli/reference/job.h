@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "cli/reference/command.h"
-#include "cli/reference/scene_of_frame.h"
 #include "gloam/frame_files.h"
 #include "gloam/radius.h"
 #include "gloam/scene/reference.h"
+#include "scene/scene_of_frame.h"
 
 namespace gloam::cli {
 

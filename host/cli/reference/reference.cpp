@@ -81,7 +81,7 @@ void reference_on_frame(const ReferenceCommand& flags, const ReferenceJob& job) 
   if (bar) options.progress = [&bar](double share) { bar(int(share * 1000), 1000); };
   FrameFiles files({flags.frame}, flags.frame_flags.read_options());
   check_pictures({"--picture", flags.picture}, files.views());
-  SceneOfFrame scene(flags.scene);
+  SceneOfFrame scene(flags.scene.named(), note);
   const TracedFrame traced = trace_frame(flags, job, files, scene, options);
   const Reference& result = traced.truth;
   std::optional<RadiusReport> report;

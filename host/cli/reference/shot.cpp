@@ -28,7 +28,7 @@ class TruthsOfShot {
  public:
   TruthsOfShot(const ReferenceCommand& flags, const ReferenceJob& job, const ShotFiles& shot,
                const FramePattern& output, ShotReport& report)
-      : flags_(flags), job_(job), shot_(shot), output_(output), report_(report), scene_(flags.scene) {
+      : flags_(flags), job_(job), shot_(shot), output_(output), report_(report), scene_(flags.scene.named(), note) {
     if (!flags.picture.empty()) pictures_.emplace(flags.picture, "--picture");
   }
 

@@ -1,15 +1,15 @@
-#include "cli/capture/moving_scene.h"
+#include "scene/moving_scene.h"
 
 #include "base/elapsed.h"
 #include "gloam/error.h"
 
-namespace gloam::cli {
+namespace gloam {
 namespace {
 
 constexpr const char* moment = "time";
 
-void check_settings(const SceneFlags& flags, const ShotRecipe& shot) {
-  for (const auto& [name, value] : parse_settings(flags.settings, "--set")) {
+void check_settings(const Settings& settings, const ShotRecipe& shot) {
+  for (const auto& [name, value] : settings) {
     if (name == moment)
       throw UsageError("--{} {}: --shot {} moves the objects and sets it in each frame; leave it out", name, value,
                        shot.name);
@@ -18,17 +18,21 @@ void check_settings(const SceneFlags& flags, const ShotRecipe& shot) {
 
 }  // namespace
 
-MovingScene::MovingScene(const SceneFlags& flags, const ShotRecipe* shot, const std::optional<OutlineOptions>& outlines)
-    : flags_(flags), shot_(shot && shot->moves_objects ? shot : nullptr), outline_options_(outlines) {
-  if (shot_) check_settings(flags, *shot_);
+MovingScene::MovingScene(NamedScene scene, const ShotRecipe* shot, const std::optional<OutlineOptions>& outlines,
+                         TellNotes tell)
+    : named_(std::move(scene)),
+      shot_(shot && shot->moves_objects ? shot : nullptr),
+      outline_options_(outlines),
+      tell_(std::move(tell)) {
+  if (shot_) check_settings(named_.settings, *shot_);
   prepare(made_at(frame_));
 }
 
 std::shared_ptr<const Scene> MovingScene::made_at(int frame) {
   const auto start = std::chrono::steady_clock::now();
-  SceneFlags at = flags_;
-  if (shot_) at.settings.push_back(fmt::format("{}={}", moment, seconds_of_frame(frame)));
-  auto scene = std::make_shared<const Scene>(at.load());
+  NamedScene at = named_;
+  if (shot_) at.settings.emplace_back(moment, fmt::format("{}", seconds_of_frame(frame)));
+  auto scene = std::make_shared<const Scene>(load_scene(at, tell_));
   load_seconds_ += seconds_since(start);
   return scene;
 }
@@ -49,4 +53,4 @@ void MovingScene::go_to(int frame) {
   prepare(made_at(frame));
 }
 
-}  // namespace gloam::cli
+}  // namespace gloam
