@@ -44,6 +44,8 @@ void add_frames(py::module_& module);
 void add_files(py::module_& module);
 void add_techniques(py::module_& module);
 void add_run(py::module_& module);
+void add_auto(py::module_& module);
+void add_pick(py::module_& module);
 void add_sequences(py::module_& module);
 void add_compare(py::module_& module);
 void add_scenes(py::module_& module);

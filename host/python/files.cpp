@@ -5,6 +5,7 @@
 #include "base/lists.h"
 #include "base/words.h"
 #include "exr/holdings.h"
+#include "gloam/color_holds.h"
 #include "gloam/planes.h"
 #include "python/frames.h"
 #include "python/interrupts.h"
@@ -98,7 +99,7 @@ SharedFrame read_frame(FrameFiles& files, const std::vector<std::string>& planes
   if (const std::optional<double> radius = stated_radius(first, notes)) held->frame.numbers["aoRadius"] = *radius;
   if (const std::optional<double> exposure = first.number_attribute("gloamExposure"))
     held->frame.numbers["gloamExposure"] = *exposure;
-  for (const char* name : {"gloamScene", "gloamTechnique", "gloamParameters", "gloamRun"}) {
+  for (const char* name : {"gloamScene", "gloamTechnique", "gloamParameters", "gloamRun", color_holds_attribute}) {
     if (const std::string text = first.text_attribute(name); !text.empty())
       held->frame.attributes[name] = on_one_line(text);
   }

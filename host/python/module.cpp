@@ -11,6 +11,8 @@ PYBIND11_MODULE(_gloam, module) {
   add_files(module);
   add_techniques(module);
   add_run(module);
+  add_auto(module);
+  add_pick(module);
   add_sequences(module);
   add_compare(module);
   add_scenes(module);

@@ -18,26 +18,6 @@ void check_host_memory(const Plan& plan, const Frame& frame, const Device& devic
                "use a smaller frame, or ask for less (outputs=[...], resolution='half')");
 }
 
-/// What a result is written with: `gloam compare` knows the background by the depth, and the edges of two views by the normals.
-SharedFrame carried(SharedFrame frame, bool is_own) {
-  if (!is_own) return frame;
-  std::vector<std::string> planes = {"depth"};
-  if (frame->frame.views.size() == 2) planes.push_back("normal");
-  keep_planes(frame->frame, planes);
-  return frame;
-}
-
-void take_planes(Frame&& result, const std::vector<std::string>& written, Outcome& outcome) {
-  for (View& view : result.views) {
-    ViewValues& values = outcome.views.emplace_back();
-    values.view = view.name;
-    for (const std::string& name : written) {
-      const auto found = view.planes.find(name);
-      if (found != view.planes.end()) values.planes.emplace_back(name, values_from(std::move(found->second)));
-    }
-  }
-}
-
 /// The outputs in their order; the layers of a stack by their own names.
 std::vector<std::string> written_planes(const Plan& plan, const Frame& result) {
   std::vector<std::string> names;
@@ -57,6 +37,25 @@ void note_history(const Frame& frame, const Frame& result, const Chained& chaine
 }
 
 }  // namespace
+
+SharedFrame carried(SharedFrame frame, bool is_own) {
+  if (!is_own) return frame;
+  std::vector<std::string> planes = {"depth"};
+  if (frame->frame.views.size() == 2) planes.push_back("normal");
+  keep_planes(frame->frame, planes);
+  return frame;
+}
+
+void take_results(Frame&& result, const std::vector<std::string>& written, Outcome& outcome) {
+  for (View& view : result.views) {
+    ViewValues& values = outcome.views.emplace_back();
+    values.view = view.name;
+    for (const std::string& name : written) {
+      const auto found = view.planes.find(name);
+      if (found != view.planes.end()) values.planes.emplace_back(name, values_from(std::move(found->second)));
+    }
+  }
+}
 
 Outcome compute_outcome(const PlanRequest& request, SharedFrame held, bool is_own, Device& device, RunOptions options,
                         Interrupts& interrupts, Chained* chained, std::optional<int> strips) {
@@ -89,7 +88,7 @@ Outcome compute_outcome(const PlanRequest& request, SharedFrame held, bool is_ow
   outcome.attributes = provenance({{&plan}}, options);
   for (auto& [name, text] : outcome.attributes) text = on_one_line(text);
   outcome.radius = computation.radius;
-  take_planes(std::move(result.frame), written, outcome);
+  take_results(std::move(result.frame), written, outcome);
   outcome.source = carried(std::move(held), is_own);
   return outcome;
 }

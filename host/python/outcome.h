@@ -43,6 +43,13 @@ struct Chained {
   std::string name;                  ///< of the frame, for messages
 };
 
+/// What a result is written with: `gloam compare` knows the background by the depth, and the edges of two views by the normals.
+/// `is_own`: nobody else holds the frame, and it loses its other planes.
+SharedFrame carried(SharedFrame frame, bool is_own);
+
+/// Takes these planes, as far as the result has them.
+void take_results(Frame&& result, const std::vector<std::string>& planes, Outcome& outcome);
+
 /// Computes. `strips`: how many the frame is divided into (strips.h), 0 for as few as fit; none: it is computed whole. `is_own`: nobody
 /// else holds the frame, so that its planes may be taken. `chained`: where the request is temporal; the frame is
 /// the caller's own then, too. Needs no interpreter lock.

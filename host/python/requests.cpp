@@ -59,9 +59,10 @@ std::string json_of(const Camera& camera) {
 
 PlanRequest plan_request(const py::dict& words) {
   PlanRequest request;
-  const std::string technique = technique_for(taken<std::string>(words, "technique"));
-  find_technique(technique);
-  request.outputs = {technique};
+  if (has(words, "technique")) {
+    request.outputs = {technique_for(taken<std::string>(words, "technique"))};
+    find_technique(request.outputs.front());
+  }
   request.only = names(words, "outputs");
   request.with = names(words, "extras");
   request.then = text(words, "filter");

@@ -12,7 +12,7 @@
 
 namespace gloam::python {
 
-/// Throw UsageError, as the command does, for words that are not allowed.
+/// Throw UsageError, as the command does, for words that are not allowed. A request without a technique has no outputs.
 PlanRequest plan_request(const py::dict& words);
 RunOptions run_options(const py::dict& words);
 ReadOptions read_options(const py::dict& words);

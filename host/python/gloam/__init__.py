@@ -12,9 +12,11 @@ Whatever cannot be done raises `gloam.Error`, whose text is one sentence: what i
 """
 
 from . import _gloam
+from ._auto import AutoResult, auto
 from ._compare import compare
 from ._files import Run, Sequence, read, write
 from ._gloam import Camera, Device, DeviceInfo, Error, Frame, MissingPlanes, UsageError, devices
+from ._pick import pick
 from ._run import Pass, Result, run
 from ._scenes import Scene, capture, reference, scenes
 from ._techniques import Parameter, Technique, techniques
@@ -23,8 +25,8 @@ from ._words import Note
 __version__ = _gloam.version
 
 __all__ = [
-    "Camera", "Device", "DeviceInfo", "Error", "Frame", "MissingPlanes", "Note", "Parameter", "Pass", "Result", "Run", "Scene", "Sequence",
-    "Technique", "UsageError", "capture", "compare", "devices", "read", "reference", "run", "scenes", "techniques", "write",
+    "AutoResult", "Camera", "Device", "DeviceInfo", "Error", "Frame", "MissingPlanes", "Note", "Parameter", "Pass", "Result", "Run", "Scene", "Sequence",
+    "Technique", "UsageError", "auto", "capture", "compare", "devices", "pick", "read", "reference", "run", "scenes", "techniques", "write",
 ]
 
 for _public in __all__:

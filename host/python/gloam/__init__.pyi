@@ -116,6 +116,11 @@ class Result(Dict[str, Any]):
     @property
     def radius_pixels(self) -> Optional[float]: ...
 
+class AutoResult(Result):
+    effects: List[Dict[str, Any]]
+    facts: Dict[str, Any]
+    composite: Optional[Plane]
+
 class Run(Iterator[Result]):
     def __next__(self) -> Result: ...
 
@@ -178,6 +183,16 @@ def run(technique: str, frame: Union[Frame, Path, _Sequence[Path], None] = None,
         fov: Optional[float] = None, views: Union[str, List[str], None] = None, device: Union[Device, str, None] = None,
         settings: Optional[Dict[str, Setting]] = None, normal_space: Optional[str] = None, normal_range: Optional[str] = None,
         normal_axes: Optional[str] = None, **keywords: Any) -> Result: ...
+def auto(frame: Union[Frame, Path, _Sequence[Path], None] = None, *, budget: Optional[float] = None, error: Optional[float] = None,
+         mask: Optional[str] = None, measure: bool = False, composite: bool = False, color_holds: Optional[str] = None,
+         ambient: Optional[Point] = None, camera: Union[Camera, List[Camera], Path, None] = None, fov: Optional[float] = None,
+         views: Union[str, List[str], None] = None, device: Union[Device, str, None] = None,
+         settings: Optional[Dict[str, Setting]] = None, normal_space: Optional[str] = None, normal_range: Optional[str] = None,
+         normal_axes: Optional[str] = None, **keywords: Any) -> AutoResult: ...
+def pick(frame: Union[Frame, Path], *, budget: Optional[float] = None, error: Optional[float] = None, by: str = "rmse",
+         truth: Union[Frame, Path, _Sequence[Union[Frame, Path]], None] = None, techniques: Union[str, List[str], None] = None,
+         radius: Optional[float] = None, rays: int = 256, rounds: int = 9, time: Optional[float] = 60,
+         device: Union[Device, str, None] = None, **reading: Any) -> Dict[str, Any]: ...
 def read(file: Union[Path, _Sequence[Path]], *, camera: Union[Camera, Path, None] = None, fov: Optional[float] = None,
          depth: Optional[str] = None, near: Optional[float] = None, far: Optional[float] = None, background: Optional[float] = None,
          normal_space: Optional[str] = None, normal_range: Optional[str] = None, normal_axes: Optional[str] = None,

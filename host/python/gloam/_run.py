@@ -175,9 +175,16 @@ def frame_of(planes, camera, fov, views, normals):
 
 def request_words(technique, parameters, settings, options):
     """What the compiled part takes as a request, and as options of the run."""
-    words = {"technique": _words.text("technique", technique), "settings": _words.settings(parameters, settings)}
-    if words["technique"] is None:
+    name = _words.text("technique", technique)
+    if name is None:
         raise _words.refusal("technique: none is named; gloam.techniques() has them")
+    words, run_words = shared_words(parameters, settings, options)
+    return {"technique": name, **words}, run_words
+
+
+def shared_words(parameters, settings, options):
+    """A request without a technique, and options of the run."""
+    words = {"settings": _words.settings(parameters, settings)}
     for name in ("outputs", "extras"):
         words[name] = _words.names(name, options.get(name))
     for name in ("preset", "filter", "resolution", "adaptive", "only", "elsewhere"):
@@ -208,8 +215,8 @@ def _files(frame):
     return None
 
 
-def _frame_for(frame, planes, camera, fov, views, words, normals):
-    """The frame to compute on, whether it is the call's own, and whether its views are a list."""
+def frame_for(frame, planes, camera, fov, views, normals, read):
+    """The frame to compute on, whether it is the call's own, and whether its views are a list. `read`: reads the planes needed of files."""
     if frame is None:
         made, several = frame_of(planes, camera, fov, views, normals)
         return made, True, several
@@ -217,8 +224,8 @@ def _frame_for(frame, planes, camera, fov, views, words, normals):
     if paths is not None:
         if planes:
             raise _words.refusal(f"{_gloam.enumerate(list(planes))}: arrays do not go with a path; give gloam.read(path) and the arrays")
-        read = _gloam.read_for(paths, _words.reading(camera, fov=fov, views=views, **normals), words)
-        return read, True, len(read.views) > 1
+        made = read(paths, _words.reading(camera, fov=fov, views=views, **normals))
+        return made, True, len(made.views) > 1
     if not isinstance(frame, Frame):
         raise _words.refusal(f"frame is of type {type(frame).__name__}; a gloam.Frame, a path, or arrays by keyword are allowed")
     for name, value in (("camera", camera), ("fov", fov), ("views", views)):
@@ -234,6 +241,15 @@ def _frame_for(frame, planes, camera, fov, views, words, normals):
     if len(of_views) != len(frame.views):
         raise _words.refusal(f"the frame has {len(frame.views)} views, and {len(of_views)} are given of {_gloam.enumerate(list(planes))}")
     return _gloam.with_planes(frame, of_views, normals), True, len(frame.views) > 1
+
+
+def tell(result, notes, frame, is_own, stacklevel):
+    """Shows the notes of a result's making, but for those of a frame that the caller had before."""
+    assumed = set() if is_own else set(frame.notes)
+    notes = [text for text in notes if text not in assumed]
+    if result.radius_from == "frame":
+        notes.append("radius: none is given, so it is made from the frame; the result's radius says which, and radius=... gives one")
+    _words.note(notes, stacklevel=stacklevel + 1)
 
 
 def run(technique, frame=None, *, camera=None, fov=None, views=None, device=None, settings=None, normal_space=None, normal_range=None,
@@ -273,12 +289,8 @@ def run(technique, frame=None, *, camera=None, fov=None, views=None, device=None
     planes, parameters = divided(keywords)
     check_names(parameters, _OPTIONS + _NAMED)
     words, run_words = request_words(technique, parameters, settings, options)
-    made, is_own, several = _frame_for(frame, planes, camera, fov, views, words, normals)
+    made, is_own, several = frame_for(frame, planes, camera, fov, views, normals, lambda paths, reading: _gloam.read_for(paths, reading, words))
     outcome = _gloam.run(words, made, is_own, _words.device(device), run_words, _strips(options.get("strips")))
     result = Result(outcome, several)
-    assumed = set() if is_own else set(made.notes)
-    notes = [text for text in outcome.notes if text not in assumed]
-    if result.radius_from == "frame":
-        notes.append("radius: none is given, so it is made from the frame; the result's radius says which, and radius=... gives one")
-    _words.note(notes, stacklevel=2)
+    tell(result, outcome.notes, made, is_own, stacklevel=2)
     return result
