@@ -289,7 +289,7 @@ PickResult pick_setting(const std::string& frame, const PickRequest& request, De
   const OwnFrame own{frame, request.reading, request.truths, &affordable};
   const PickedOnFrame made = pick_on_frame(own, effect, options, scene, left_out, device, tell);
   const Picked& picked = made.picked;
-  for (const Choice& choice : picked.finalists) {
+  for (const bench::Choice& choice : picked.finalists) {
     const Variation& v = choice.variation;
     result.finalists.push_back(
         {v.technique->name, v.name(), resolution_of(v), choice.ms, choice.rmse, choice.ssim, choice.flip});

@@ -1,6 +1,7 @@
 // gloam.auto
 #include "gloam/auto.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "auto/report.h"

@@ -52,7 +52,7 @@ def test_the_composite_is_that_of_the_command(file, command, tmp_path):
 
 
 def test_a_goal_chooses(file):
-    result = gloam.auto(file, error=1000.0, radius=0.5)
+    result = gloam.auto(file, error=1000.0, radius=0.5, preset="low", resolution="full")
     assert result.facts["goal_met"] is True and result.facts["error_goal"] == 1000
     assert result.facts["chosen"] == []  # nothing has to be computed for an error that large
 
