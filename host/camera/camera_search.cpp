@@ -6,6 +6,7 @@
 #include "base/file_ledger.h"
 #include "camera/camera_json.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 
 namespace gloam {
 
@@ -58,8 +59,8 @@ std::vector<fs::path> json_files(const fs::path& folder) {
 std::optional<fs::path> only_one(const std::vector<fs::path>& candidates, const fs::path& frame) {
   if (candidates.empty()) return {};
   if (candidates.size() == 1) return candidates.front();
-  throw Error("{}: both {} and {} could be its camera; say which with --camera", frame.string(),
-              candidates[0].filename().string(), candidates[1].filename().string());
+  throw Error("{}: both {} and {} could be its camera; say which with {}", frame.string(),
+              candidates[0].filename().string(), candidates[1].filename().string(), option("camera"));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "choose/document.h"
 #include "gloam/error.h"
 #include "gloam/metrics.h"
+#include "gloam/option.h"
 #include "gloam/pick.h"
 #include "measure/effects.h"
 #include "measure/schedule.h"
@@ -91,7 +92,8 @@ class Search {
         }
       }
     }
-    throw Error("{}: has no truth of {}, and no technique tells one; --truth gives it", subject_.name, subject_.effect);
+    throw Error("{}: has no truth of {}, and no technique tells one; {} gives it", subject_.name, subject_.effect,
+                option("truth"));
   }
 
   bool has_layers() const {
@@ -183,18 +185,21 @@ class Search {
   /// Throws Error that names the nearest miss if nothing is within the bound.
   void check(const ContestResult& outcome) const {
     if (outcome.tried == 0 && picked_.skipped.empty())
-      throw Error("{}: no setting could be tried in time; --time gives more, --all all that it takes", subject_.name);
+      throw Error("{}: no setting could be tried in time; {} gives more, {} all that it takes", subject_.name,
+                  option("time"), option("all"));
     if (outcome.tried == 0) throw Error("{}: nothing can be measured: {}", subject_.name, picked_.skipped.back().why);
     if (outcome.best) return;
     const std::vector<Contestant>& all = outcome.finalists;
     if (options_.budget)
-      throw Error("--budget {:g}ms: nothing is that fast on this frame and device; the fastest is {} with {:.2f} ms",
-                  *options_.budget, name_of(all.front().choice.variation), all.front().choice.ms);
+      throw Error("{}ms: nothing is that fast on this frame and device; the fastest is {} with {:.2f} ms",
+                  option("budget", fmt::format("{:g}", *options_.budget)), name_of(all.front().choice.variation),
+                  all.front().choice.ms);
     const Contestant& nearest =
         *std::min_element(all.begin(), all.end(),
                           [&](const Contestant& a, const Contestant& b) { return off(a.choice) < off(b.choice); });
-    throw Error("--error {:g}: nothing comes that near to {}; the nearest is {} with {:.4f}", *options_.error,
-                picked_.truth, name_of(nearest.choice.variation), off(nearest.choice));
+    throw Error("{}: nothing comes that near to {}; the nearest is {} with {:.4f}",
+                option("error", fmt::format("{:g}", *options_.error)), picked_.truth, name_of(nearest.choice.variation),
+                off(nearest.choice));
   }
 
   double off(const Choice& choice) const { return error_of(choice, options_.by); }

@@ -15,6 +15,7 @@
 #include "cli/list/techniques.h"
 #include "cli/process/same_mathematics.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "gloam/scene/scene.h"
 #include "run/driver.h"
 #include "run/kernel_cache.h"
@@ -260,6 +261,7 @@ static int status_of_command(int argc, char** argv) {
 }
 
 int main(int argc, char** argv) {
+  gloam::set_caller(gloam::Caller::command);
   gloam::cli::restart_with_same_mathematics(argc, argv);
   gloam::begin_file_ledger();
   gloam::remove_temporaries_on_signal();

@@ -3,6 +3,7 @@
 #include "base/lists.h"
 #include "frame/field_of_view.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 
 namespace gloam {
 namespace {
@@ -22,9 +23,8 @@ void assume_missing_camera(const ExrFile& file, const FileCameras& known, View& 
   // Another note already says why a JSON or an incomplete header was not used.
   const bool is_explained = !known.json_misfit.empty() || pose != known.poses.end();
   const char* none = is_explained ? "" : "none by flag, header or a JSON beside the file; ";
-  add_new(frame.assumed,
-          fmt::format("camera: {}a horizontal field of view of {:g} degrees is assumed (--fov, --camera)", none,
-                      assumed_fov));
+  add_new(frame.assumed, fmt::format("camera: {}a horizontal field of view of {:g} degrees is assumed ({}, {})", none,
+                                     assumed_fov, option("fov"), option("camera")));
 }
 
 }  // namespace gloam

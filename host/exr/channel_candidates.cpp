@@ -7,6 +7,7 @@
 
 #include "exr/channel_text.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 
 namespace gloam::channel_names {
 namespace {
@@ -134,7 +135,7 @@ std::string tie_in_words(const std::string& plane, const std::vector<Candidate>&
         taken += " of " + part_of(best);
         left += " of " + part_of(other);
       }
-      const std::string chooses = name.empty() ? "" : fmt::format(" (--plane {}={} chooses)", plane, name);
+      const std::string chooses = name.empty() ? "" : fmt::format(" ({} chooses)", channels_option(plane, name));
       return fmt::format("{}: {} taken, not {}{}", plane, taken, left, chooses);
     }
   return "";

@@ -9,6 +9,7 @@
 #include "exr/channel_candidates.h"
 #include "exr/channel_text.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 
 namespace gloam::channel_names {
 namespace {
@@ -51,7 +52,7 @@ std::vector<const FileChannel*> find_layer(const std::vector<Layer>& layers, con
     if (layer.components.size() == kind.components.size() && kind.components.size() == 1) return {first};
     std::vector<std::string> held;
     for (const auto& [component, channel] : layer.components) held.push_back(channel->name);
-    throw Error("--plane {}={}: the layer has {}; name {} of them, separated by commas", kind.name, name,
+    throw Error("{}: the layer has {}; name {} of them, separated by commas", channels_option(kind.name, name),
                 enumerate(held), kind.components.size());
   }
   return {};
@@ -75,7 +76,7 @@ void check_plane_name(const std::string& plane) {
   std::vector<std::string> names;
   for (const PlaneKind& kind : plane_kinds()) names.push_back(kind.name);
   if (std::find(names.begin(), names.end(), plane) != names.end()) return;
-  throw UsageError("--plane {}: no plane has this name{}; there are {}", plane, suggestion(plane, names),
+  throw UsageError("{}: no plane has this name{}; there are {}", option("plane", plane), suggestion(plane, names),
                    enumerate(names));
 }
 
@@ -97,7 +98,7 @@ std::vector<const FileChannel*> chosen(const std::vector<Layer>& layers, const s
   if (channels.size() == names.size() && names.size() == kind.components.size()) return channels;
   if (names.size() == 1 && channels.empty()) return find_layer(layers, kind, view, text);
   if (channels.size() == names.size())
-    throw Error("--plane {}={}: {} channel(s) given, and '{}' has {} component(s)", kind.name, text, names.size(),
+    throw Error("{}: {} channel(s) given, and '{}' has {} component(s)", channels_option(kind.name, text), names.size(),
                 kind.name, kind.components.size());
   return {};
 }
@@ -123,7 +124,7 @@ void no_such_channel(const std::vector<Entry>& entries, const std::string& plane
     if (cut) all.resize(shown_at_most);
     hint = "; it has " + enumerate(all) + (cut ? ", ..." : "");
   }
-  throw Error("--plane {}={}: the file has no channel or layer '{}'{}", plane, text, wrong, hint);
+  throw Error("{}: the file has no channel or layer '{}'{}", channels_option(plane, text), wrong, hint);
 }
 
 }  // namespace gloam::channel_names

@@ -12,6 +12,7 @@
 #include "exr/channel_layers.h"
 #include "exr/channel_text.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "gloam/planes.h"
 
 namespace gloam {
@@ -51,8 +52,9 @@ std::vector<std::string> selected_views(const std::vector<std::string>& in_file,
   for (const std::string& view : in_file) quoted.push_back("'" + view + "'");
   for (const std::string& view : asked)
     if (std::find(in_file.begin(), in_file.end(), view) == in_file.end()) {
-      if (in_file == std::vector<std::string>{""}) throw Error("--view {}: the file names no views", view);
-      throw Error("--view {}: no such view{}; the file has {}", view, suggestion(view, in_file), enumerate(quoted));
+      if (in_file == std::vector<std::string>{""}) throw Error("{}: the file names no views", option("view", view));
+      throw Error("{}: no such view{}; the file has {}", option("view", view), suggestion(view, in_file),
+                  enumerate(quoted));
     }
   if (asked.empty()) return in_file;
   std::vector<std::string> views;
@@ -71,7 +73,9 @@ void apply_unnamed_view(std::vector<Entry>& entries, NamedPlanes& named, const s
   named.view_is_assumed = asked.size() != 1;
   note(named, "",
        fmt::format("no channel names a view: all are taken for '{}'{}", view,
-                   named.view_is_assumed ? ", the first that the file lists (--view says otherwise)" : ""));
+                   named.view_is_assumed
+                       ? fmt::format(", the first that the file lists ({} says otherwise)", option("view"))
+                       : ""));
 }
 
 void name_view(NamedPlanes& named, const std::vector<Entry>& entries, const std::string& view,

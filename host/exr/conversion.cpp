@@ -7,6 +7,7 @@
 #include "exr/radiance.h"
 #include "exr/view_planes.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "normalise/normalise.h"
 
 namespace gloam {
@@ -20,7 +21,7 @@ void drop_positions_without_pose(const FileCameras& cameras, View& view, Frame& 
     return;
   }
   if (view.camera->pose || view.planes.erase("position") == 0) return;
-  add_new(frame.assumed, "positions: not used, since the camera's pose is unknown (--camera gives it)");
+  add_new(frame.assumed, "positions: not used, since the camera's pose is unknown (" + option("camera") + " gives it)");
 }
 
 }  // namespace
@@ -52,7 +53,7 @@ void note_assumptions(const ExrFile& file, const FileCameras& cameras, const std
   if (const auto general = by_plane.find(""); general != by_plane.end()) add_new(frame.assumed, general->second);
   for (const std::string& plane : planes_to_decode(asked))
     if (const auto notes = by_plane.find(plane); notes != by_plane.end()) add_new(frame.assumed, notes->second);
-  add_new(frame.assumed, unused_planes(file.names.planes, file.names.views, asked, "--view chooses one"));
+  add_new(frame.assumed, unused_planes(file.names.planes, file.names.views, asked, option("view") + " chooses one"));
   add_new(frame.assumed, file.notes);
   add_new(frame.assumed, cameras.notes);
 }

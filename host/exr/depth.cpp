@@ -7,6 +7,7 @@
 #include "exr/depth_of_positions.h"
 #include "exr/errors.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "gloam/planes.h"
 #include "normalise/depth.h"
 #include "normalise/stored_depth.h"
@@ -48,16 +49,17 @@ bool take_shown_depth(const PlaneSource& depth, const DepthRelation& relation, R
   if (relation.kind == DepthRelation::neither) {
     if (is_free)
       add_new(assumed,
-              fmt::format("depth: '{}' is neither the planar distance of the positions nor their distance along the "
-                          "ray (--depth)",
-                          name));
+              fmt::format(
+                  "depth: '{}' is neither the planar distance of the positions nor their distance along the ray ({})",
+                  name, option("depth")));
     return false;
   }
   const bool is_ray = relation.kind == DepthRelation::along_ray;
   const DepthConvention shown = is_ray ? DepthConvention::ray : DepthConvention::z;
   const char* words = is_ray ? "the distance along the ray" : "the planar distance";
   if (!is_free && options.depth != shown)
-    add_new(assumed, fmt::format("depth: --depth overrules the positions, by which '{}' is {}", name, words));
+    add_new(assumed,
+            fmt::format("depth: {} overrules the positions, by which '{}' is {}", option("depth"), name, words));
   if (!is_free) return true;
   if (is_ray || depth.said == DeclaredConvention::ray_distance)
     add_new(assumed, fmt::format("depth: '{}' is {}, as the positions show", name, words));
@@ -86,10 +88,10 @@ ReadOptions with_declared_depth(const ExrFile& file, const PlaneSource& depth, c
   if (depth.said == DeclaredConvention::planar || file.headers.has("gloamOrigin")) options.depth = DepthConvention::z;
   if (depth.said == DeclaredConvention::ray_distance) {
     options.depth = DepthConvention::ray;
-    add_new(assumed,
-            fmt::format("depth: '{}' is taken as the distance along the ray, as its renderer writes it (--depth z "
-                        "says otherwise)",
-                        depth.channels.front().name));
+    add_new(
+        assumed,
+        fmt::format("depth: '{}' is taken as the distance along the ray, as its renderer writes it ({} says otherwise)",
+                    depth.channels.front().name, option("depth", "z")));
   }
   return options;
 }
@@ -156,7 +158,8 @@ std::string convert_depth(const ExrFile& file, const FileCameras& cameras, View&
 void note_missing_background(const ExrFile& file, Frame& frame) {
   const bool has_depth = std::any_of(frame.views.begin(), frame.views.end(), [](View& v) { return v.find("depth"); });
   if (file.options.background && has_depth)
-    add_new(frame.assumed, fmt::format("depth: no pixel is {:.9g} (--background)", *file.options.background));
+    add_new(frame.assumed,
+            fmt::format("depth: no pixel is {:.9g} ({})", *file.options.background, option("background")));
 }
 
 }  // namespace gloam

@@ -7,6 +7,7 @@
 
 #include "base/lists.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "normalise/background.h"
 #include "normalise/each_row.h"
 
@@ -91,7 +92,7 @@ void make_depth(const ExrFile& file, const PositionFindings& findings, View& vie
   const std::string of_view = view.name.empty() ? "" : fmt::format(" of view '{}'", view.name);
   add_new(frame.assumed, fmt::format("depth{}: made from the positions", of_view));
   if (file.options.depth != DepthConvention::automatic)
-    add_new(frame.assumed, "depth: --depth has no effect, as depth is made from the positions");
+    add_new(frame.assumed, "depth: " + option("depth") + " has no effect, as depth is made from the positions");
   if (count > 0)
     add_new(frame.assumed,
             fmt::format("depth{}: {} pixel{} with a position that lies elsewhere in the image taken as background",

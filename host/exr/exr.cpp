@@ -25,6 +25,7 @@
 #include "exr/write.h"
 #include "exr/written_header.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "gloam/planes.h"
 
 namespace gloam {
@@ -73,9 +74,10 @@ struct FrameFile::Impl {
     const bool had_depth = is_plane(file, "depth");
     settle();
     if (!had_depth || !contains(planes, "depth") || is_plane(file, "depth") || file.options.only_looks) return;
-    throw Error("{}: has no depth, and none can be made from its positions: {}; --camera FILE gives the camera",
+    throw Error("{}: has no depth, and none can be made from its positions: {}; {} gives the camera",
                 file.path.string(),
-                cameras.why_not_fitted.empty() ? "none is one" : cameras.why_not_fitted.begin()->second);
+                cameras.why_not_fitted.empty() ? "none is one" : cameras.why_not_fitted.begin()->second,
+                option("camera", "FILE"));
   }
 
   void decode(Frame& frame) {
@@ -110,9 +112,10 @@ void FrameFile::become(const Eye& eye) {
   if (impl_->cameras.has_pose(views().front())) return;
   const std::string& misfit = impl_->cameras.json_misfit;
   throw Error(
-      "{}: has no camera with a pose{}, which each of two eyes needs; give --camera FILE with a pose for "
-      "each of the views '{}' and '{}'",
-      file.path.string(), misfit.empty() ? "" : fmt::format(" ({}: it is not used)", misfit), eye.name, eye.other_name);
+      "{}: has no camera with a pose{}, which each of two eyes needs; give {} with a pose for each of the views '{}' "
+      "and '{}'",
+      file.path.string(), misfit.empty() ? "" : fmt::format(" ({}: it is not used)", misfit), option("camera", "FILE"),
+      eye.name, eye.other_name);
 }
 
 FrameFile::~FrameFile() = default;

@@ -29,6 +29,7 @@
 #include "exr/written_channels.h"
 #include "exr/written_header.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "gloam/planes.h"
 
 namespace gloam {
@@ -165,11 +166,12 @@ void note_planes_there_twice(const Headers& original, const std::vector<int>& ke
     for (const AddedPlanes& added : all) {
       if (!added.frame->views.front().find(source.plane) || added.content == composite_content) continue;
       add_new(notes,
-              fmt::format("copy: the input has '{0}' too: of the copy, --plane {0}={1} reads that one, and --plane "
-                          "{0}={2}:{3} the new one",
-                          source.plane, source.channels.front().name,
-                          added_part_name(added.content, added.frame->views.front().name),
-                          fmt::join(plane_kind(source.plane).channels, ",")));
+              fmt::format(
+                  "copy: the input has '{}' too: of the copy, {} reads that one, and {} the new one", source.plane,
+                  channels_option(source.plane, source.channels.front().name),
+                  channels_option(source.plane,
+                                  fmt::format("{}:{}", added_part_name(added.content, added.frame->views.front().name),
+                                              fmt::join(plane_kind(source.plane).channels, ",")))));
     }
   }
 }

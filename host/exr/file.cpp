@@ -9,6 +9,7 @@
 #include "exr/validation.h"
 #include "exr/view_planes.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 
 namespace gloam {
 namespace {
@@ -56,9 +57,9 @@ void check_chosen_planes(ExrFile& file) {
     if (why.empty()) continue;
     const auto has_it = [&, &plane = plane](const std::string& view) { return file.has(plane, view); };
     const std::string own = *std::find_if(file.names.views.begin(), file.names.views.end(), has_it);
-    const std::string sentence = fmt::format(
-        "--plane {}={}: is of view '{}' alone, and {}; --view {} reads that view, or a choice for all views", plane,
-        channels, own, why, own);
+    const std::string sentence =
+        fmt::format("{}: is of view '{}' alone, and {}; {} reads that view, or a choice for all views",
+                    channels_option(plane, channels), own, why, option("view", own));
     if (!file.options.only_looks) throw Error("{}: {}", file.path.string(), sentence);
     file.notes.push_back(sentence);
   }

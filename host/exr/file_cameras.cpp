@@ -7,6 +7,7 @@
 #include "exr/header_cameras.h"
 #include "frame/field_of_view.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 
 namespace gloam {
 namespace {
@@ -94,7 +95,7 @@ class Search {
 
   /// The camera by --fov, with all else that is known.
   Camera by_field_of_view(const std::optional<Camera>& known, const std::optional<Pose>& pose) const {
-    Camera camera = camera_from_fov(*options_.fov_degrees, file_.display, file_.pixel_aspect, "--fov");
+    Camera camera = camera_from_fov(*options_.fov_degrees, file_.display, file_.pixel_aspect, option("fov"));
     camera.pose = known ? known->pose : pose;
     if (known) camera.near = known->near, camera.far = known->far;
     return camera;
@@ -104,10 +105,10 @@ class Search {
   void check_clipping(const Camera& camera) const {
     if (!camera.near || !camera.far || *camera.near < *camera.far || (!options_.near && !options_.far)) return;
     if (options_.near)
-      throw Error("--near {:g}: must be less than far, {:g} ({}); give --far as well", *camera.near, *camera.far,
-                  camera.source);
-    throw Error("--far {:g}: must be more than near, {:g} ({}); give --near as well", *camera.far, *camera.near,
-                camera.source);
+      throw Error("{}: must be less than far, {:g} ({}); give {} as well",
+                  option("near", fmt::format("{:g}", *camera.near)), *camera.far, camera.source, option("far"));
+    throw Error("{}: must be more than near, {:g} ({}); give {} as well",
+                option("far", fmt::format("{:g}", *camera.far)), *camera.near, camera.source, option("near"));
   }
 
   /// Runs `find`. An Error of it becomes a note if `is_allowed`.
@@ -115,10 +116,12 @@ class Search {
     try {
       find();
     } catch (const Error& error) {
-      if (!is_allowed && !has_camera_flag()) throw Error("{}; --fov or --camera gives another", error.what());
+      if (!is_allowed && !has_camera_flag())
+        throw Error("{}; {} or {} gives another", error.what(), option("fov"), option("camera"));
       if (!is_allowed) throw;
-      const char* instead =
-          options_.fov_degrees ? "--fov takes its place" : "gloam run refuses it; --fov or --camera gives another";
+      const std::string instead = options_.fov_degrees ? option("fov") + " takes its place"
+                                                       : fmt::format("gloam run refuses it; {} or {} gives another",
+                                                                     option("fov"), option("camera"));
       add_new(found_.notes, fmt::format("camera: {}: not used; {}", error.what(), instead));
     }
   }
@@ -142,7 +145,8 @@ bool FileCameras::has_pose(const std::string& view) const {
 
 void check_clipping_flags(const ReadOptions& options) {
   if (options.near && options.far && !(*options.near < *options.far))
-    throw UsageError("--near {:g} --far {:g}: near must be less than far", *options.near, *options.far);
+    throw UsageError("{} {}: near must be less than far", option("near", fmt::format("{:g}", *options.near)),
+                     option("far", fmt::format("{:g}", *options.far)));
 }
 
 FileCameras find_cameras(const ExrFile& file, const std::optional<EyeOfPair>& eye) { return Search(file, eye).all(); }

@@ -9,6 +9,7 @@
 #include "base/lists.h"
 #include "base/words.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "gloam/unfit.h"
 
 namespace gloam {
@@ -20,14 +21,13 @@ struct Fill {
   const char* name;  ///< in the channel's name or its part's, in small letters without marks; empty: any
   float value;
   double least_share;  ///< of the surfaces
-  const char* why;     ///< "{}": the share in percent
+  const char* why;     ///< of the share in percent, and of the option that leaves the plane out
 };
 
 constexpr std::array<Fill, 2> fills = {{
     {"reflectance", "glosscol", 1, 0.5,
      "GlossCol is 1 on {:.0f} % of the surfaces, as a Principled BSDF writes it for any material, and reflections "
-     "would "
-     "be far too bright (--plane reflectance=none takes 0.04)"},
+     "would be far too bright ({} takes 0.04)"},
     // A truthful frame may show some mirrors, but not mirrors alone.
     {"roughness", "", 0, 0.999,
      "it is 0 on {:.0f} % of the surfaces, as an output that no material fills, and all would be perfect mirrors"},
@@ -71,7 +71,9 @@ void Fills::note(Frame& frame) const {
   for (const auto& [plane, count] : counts_) {
     const Fill& fill = fill_of(plane);
     if (count.surfaces > 0 && count.share() >= fill.least_share)
-      add_new(frame.assumed, note_on({plane, fmt::format(fmt::runtime(fill.why), 100 * count.share())}));
+      add_new(
+          frame.assumed,
+          note_on({plane, fmt::format(fmt::runtime(fill.why), 100 * count.share(), channels_option(plane, "none"))}));
   }
 }
 

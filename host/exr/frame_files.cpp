@@ -8,6 +8,7 @@
 #include "base/lists.h"
 #include "exr/view_planes.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "gloam/planes.h"
 
 namespace gloam {
@@ -96,8 +97,8 @@ FrameFiles::FrameFiles(const std::vector<std::string>& paths, const ReadOptions&
   }
   if (paths.size() != 2) throw UsageError("a frame is one file, or two with one eye each; {} were given", paths.size());
   if (!options.views.empty())
-    throw UsageError("--view {}: each of two files is one view already; leave it out, or give one file",
-                     fmt::join(options.views, ","));
+    throw UsageError("{}: each of two files is one view already; leave it out, or give one file",
+                     option("view", fmt::format("{}", fmt::join(options.views, ","))));
   std::error_code unknown;
   if (fs::equivalent(paths[0], paths[1], unknown))
     throw UsageError("{}: is given twice ({}), and two files are two eyes; give the file of each", paths[0], paths[1]);

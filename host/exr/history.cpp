@@ -7,6 +7,7 @@
 #include "base/lists.h"
 #include "exr/view_planes.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "gloam/planes.h"
 
 namespace gloam {
@@ -173,8 +174,8 @@ void add_history(Frame& frame, Frame before, const std::vector<std::string>& pla
 History::History(const std::filesystem::path& path) : file_(path, {}) {
   const std::vector<std::string> there = file_.common_planes();
   const auto refuse = [&](const std::string& lacks) {
-    throw Error("--history {}: has no {}; give the file that gloam run wrote for the frame before, without --bare",
-                path.string(), lacks);
+    throw Error("{}: has no {}; give the file that gloam run wrote for the frame before, without --bare",
+                option("history", path.string()), lacks);
   };
   const bool has_result = std::any_of(there.begin(), there.end(), [](const std::string& plane) {
     return plane == "reflection" || plane == "ao_raw" || plane == "indirect_raw";
@@ -201,7 +202,7 @@ std::vector<std::string> History::planes_of_file() const {
 }
 
 void History::add_to(Frame& frame, const std::vector<std::string>& planes) {
-  add_history(frame, file_.read(planes_of_file()), planes, "--history " + file_.path().string());
+  add_history(frame, file_.read(planes_of_file()), planes, option("history", file_.path().string()));
 }
 
 std::optional<int> History::seed() const {

@@ -3,6 +3,7 @@
 #include "base/lists.h"
 #include "exr/errors.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 
 namespace gloam {
 namespace {
@@ -36,9 +37,9 @@ StatedNormals stated_normals(const ExrFile& file, const PlaneSource& normal, boo
   const NormalConvention& flags = file.options.normals;
   StatedNormals stated = stated_by_file(file, normal);
   std::vector<std::string> by;
-  if (flags.space != NormalSpace::automatic) by.emplace_back("--normal-space");
-  if (flags.range != NormalRange::automatic) by.emplace_back("--normal-range");
-  if (flags.axes) by.emplace_back("--normal-axes");
+  if (flags.space != NormalSpace::automatic) by.push_back(option("normal-space"));
+  if (flags.range != NormalRange::automatic) by.push_back(option("normal-range"));
+  if (flags.axes) by.push_back(option("normal-axes"));
   if (flags.space == NormalSpace::automatic && stated.convention.space != NormalSpace::automatic)
     by.push_back(stated.by);
   stated.by = enumerate(by);
@@ -65,18 +66,20 @@ std::optional<NormalForm> form_of(const ExrFile& file, const View& view, const N
   bool is_of_shot = false;
   const StatedNormals stated = stated_normals(file, *file.source("normal", view.name), is_of_shot, notes);
   if (!depth && stated.convention.space == NormalSpace::automatic)
-    notes.emplace_back("normal: taken as view space, since there is no depth to compare with (--normal-space)");
+    notes.push_back(fmt::format("normal: taken as view space, since there is no depth to compare with ({})",
+                                option("normal-space")));
   std::vector<NormalPair> pairs;
   if (depth)
     pairs = named(file.path, [&] { return samples.pairs(depth->channels.front(), frame.window, *view.camera); });
   const NormalForm form = find_form(pairs, view.camera->pose, stated, of_frame);
   const bool is_used = are_chosen(file) || of_frame.empty() || !fit_no_convention(pairs, form, view.camera->pose);
   if (!is_used)
-    of_frame.back() += "; they are not used (--plane normal=CHANNELS has them taken)";
+    of_frame.back() += fmt::format("; they are not used ({} has them taken)", channels_option("normal", "CHANNELS"));
   else if (is_of_shot && !of_frame.empty())
     of_frame = {
-        "normals: not all frames of the shot agree best with the convention that was found for it "
-        "(--normal-space, --normal-range and --normal-axes state one)"};
+        fmt::format("normals: not all frames of the shot agree best with the convention that was found for it ({}, {} "
+                    "and {} state one)",
+                    option("normal-space"), option("normal-range"), option("normal-axes"))};
   if (depth) add_new(notes, of_frame);
   add_new(frame.assumed, notes);
   if (!pairs.empty() && !is_whole(found.convention)) found = {convention_of(form), notes};
@@ -91,7 +94,7 @@ std::optional<NormalForm> find_normal_form(const ExrFile& file, const View& view
   const std::optional<NormalForm> form = form_of(file, view, samples, frame, found);
   if (!form) return {};
   if (form->space == NormalSpace::world && !view.camera->pose) {
-    add_new(frame.assumed, "normals: not used, since the camera's pose is unknown (--camera gives it)");
+    add_new(frame.assumed, "normals: not used, since the camera's pose is unknown (" + option("camera") + " gives it)");
     return {};
   }
   if (!view.find("depth")) return form;

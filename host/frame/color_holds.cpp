@@ -6,6 +6,7 @@
 
 #include "base/words.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 
 namespace gloam {
 namespace {
@@ -62,8 +63,8 @@ std::string in_words(const ColorHolds& holds) {
 }
 
 std::string note_on_assumed_holds() {
-  return fmt::format("color: what it holds beside direct light is not stated ({}); taken as {} (--color-holds LIST)",
-                     color_holds_attribute, in_words(ColorHolds()));
+  return fmt::format("color: what it holds beside direct light is not stated ({}); taken as {} ({})",
+                     color_holds_attribute, in_words(ColorHolds()), option("color-holds", "LIST"));
 }
 
 }  // namespace gloam

@@ -6,6 +6,7 @@
 #include "base/lists.h"
 #include "base/words.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 
 namespace gloam {
 namespace {
@@ -14,9 +15,15 @@ using Names = std::vector<std::string>;
 using Ambient = Composition::Ambient;
 
 constexpr const char* no_albedo = "the frame has no 'albedo'";
-constexpr const char* ambient_unknown =
-    "how much of the colour is ambient light is unknown: the frame has no 'ambient'; give --ambient R,G,B, or capture "
-    "it (--planes color,ambient)";
+
+/// "give --ambient R,G,B, or capture it (--planes color,ambient)"
+std::string ways_to_ambient() {
+  return fmt::format("give {}, or capture it ({})", option("ambient", "R,G,B"), option("planes", "color,ambient"));
+}
+
+std::string ambient_unknown() {
+  return "how much of the colour is ambient light is unknown: the frame has no 'ambient'; " + ways_to_ambient();
+}
 
 /// What decides about the parts.
 struct Known {
@@ -46,7 +53,7 @@ std::string why_no_environment(const Known& known) {
   if (known.options.holds.ao)
     return "it takes the place of ambient light, and the colour's is occluded already: how much of it is there is "
            "unknown";
-  return known.ambient == Ambient::colour ? ambient_unknown : "";
+  return known.ambient == Ambient::colour ? ambient_unknown() : "";
 }
 
 bool takes_indirect(const Known& known) { return known.is_computed("indirect") && why_no_indirect(known).empty(); }
@@ -58,7 +65,7 @@ bool takes_environment(const Known& known) {
 std::string why_no_visibility(const Known& known) {
   if (known.options.holds.ao) return "the colour holds ambient occlusion already";
   if (takes_environment(known)) return "'environment' is in place of the ambient light, and occluded by itself";
-  return known.ambient == Ambient::unknown ? std::string("the colour holds no ambient light, and ") + ambient_unknown
+  return known.ambient == Ambient::unknown ? std::string("the colour holds no ambient light, and ") + ambient_unknown()
                                            : "";
 }
 
@@ -80,7 +87,7 @@ std::string why_no_reflection(const Known& known) {
 
 std::string why_no_contact(const Known& known) {
   if (known.options.holds.shadows) return "the colour holds shadows already";
-  return known.ambient == Ambient::colour ? ambient_unknown : "";
+  return known.ambient == Ambient::colour ? ambient_unknown() : "";
 }
 
 /// A part that a picture can be made of.
@@ -252,8 +259,8 @@ const Names& planes_to_compose() {
 Composition composition_of(const Names& frame, const Names& computed, const ComposeOptions& options) {
   if (!contains(frame, "color")) throw Error("the frame has no 'color', which the picture begins with");
   if (options.ambient && !contains(frame, "albedo"))
-    throw UsageError("--ambient {:g}: is the light of a sky, which the surfaces reflect, and {}; leave it out",
-                     fmt::join(*options.ambient, ","), no_albedo);
+    throw UsageError("{}: is the light of a sky, which the surfaces reflect, and {}; leave it out",
+                     option("ambient", fmt::format("{:g}", fmt::join(*options.ambient, ","))), no_albedo);
   Composition composition;
   composition.ambient = ambient_of(frame, options);
   composition.options = options;
@@ -266,8 +273,8 @@ Composition composition_of(const Names& frame, const Names& computed, const Comp
   const bool darkens = composition.uses("ao") || composition.uses("bounces");
   if (darkens && composition.ambient == Ambient::colour)
     composition.notes.push_back(
-        "the frame has no 'ambient', so ambient occlusion darkens all of its colour, light of the sun too; give "
-        "--ambient R,G,B, or capture it (--planes color,ambient)");
+        "the frame has no 'ambient', so ambient occlusion darkens all of its colour, light of the sun too; " +
+        ways_to_ambient());
   if (!options.holds.ambient && composition.ambient != Ambient::unknown)
     composition.notes.push_back("the colour holds no ambient light, so the picture gets it beside the colour");
   return composition;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "gloam/error.h"
+#include "gloam/option.h"
 
 namespace gloam {
 namespace {
@@ -34,8 +35,8 @@ bool has(const std::vector<Unfit>& unfit, const std::string& plane) {
 }  // namespace
 
 std::string note_on(const Unfit& unfit) {
-  return fmt::format("{}{}{}{} (--plane {}=CHANNELS has it taken)", unfit.plane, verdict, unfit.why, remedy,
-                     unfit.plane);
+  return fmt::format("{}{}{}{} ({} has it taken)", unfit.plane, verdict, unfit.why, remedy,
+                     channels_option(unfit.plane, "CHANNELS"));
 }
 
 std::string note_in_shot(const std::string& note, const std::vector<Unfit>& left_out, int decider) {
@@ -43,10 +44,10 @@ std::string note_in_shot(const std::string& note, const std::vector<Unfit>& left
   if (!found) return note;
   const std::string& plane = found->unfit.plane;
   if (has(left_out, plane))
-    return fmt::format("{}{} in all frames, as frame {} decides (--plane {}=CHANNELS has it taken)", found->said,
-                       remedy, decider, plane);
-  return fmt::format("{}; it is taken all the same, as frame {} decides for all frames (--plane {}=none leaves it out)",
-                     found->said, decider, plane);
+    return fmt::format("{}{} in all frames, as frame {} decides ({} has it taken)", found->said, remedy, decider,
+                       channels_option(plane, "CHANNELS"));
+  return fmt::format("{}; it is taken all the same, as frame {} decides for all frames ({} leaves it out)", found->said,
+                     decider, channels_option(plane, "none"));
 }
 
 std::vector<Unfit> unfit_planes(const std::vector<std::string>& notes) {

@@ -8,6 +8,7 @@
 #include "gloam/error.h"
 #include "gloam/history.h"
 #include "gloam/metrics.h"
+#include "gloam/option.h"
 #include "measure/similarity.h"
 #include "sequence/history_chain.h"
 
@@ -199,16 +200,16 @@ Surfaces surfaces_of_view(const Frame& frame, const View& view) {
 
 void add_frame(MeasuredSequence& sequence, int number, Subject subject) {
   if (!subject.truth)
-    throw Error("frame {}: {} has no truth to measure against; --truth 'truth.####.exr' names one for each frame",
-                number, subject.name);
+    throw Error("frame {}: {} has no truth to measure against; {} names one for each frame", number, subject.name,
+                option("truth", "'truth.####.exr'"));
   if (sequence.frames.empty()) {
     sequence.holds = subject.holds;
     sequence.radius = subject.radius;
   } else {
     const Frame& first = sequence.frames.front().frame;
     if (subject.frame.width() != first.width() || subject.frame.height() != first.height())
-      throw Error("frame {} is {}x{}, and the first frame {}x{}; measure frames of one size, chosen by --frames",
-                  number, subject.frame.width(), subject.frame.height(), first.width(), first.height());
+      throw Error("frame {} is {}x{}, and the first frame {}x{}; measure frames of one size, chosen by {}", number,
+                  subject.frame.width(), subject.frame.height(), first.width(), first.height(), option("frames"));
   }
   MeasuredFrame& frame = sequence.frames.emplace_back();
   frame.number = number;

@@ -5,6 +5,7 @@
 #include "base/json_text.h"
 #include "base/statistics.h"
 #include "gloam/frame_numbers.h"
+#include "gloam/option.h"
 
 namespace gloam::bench {
 namespace {
@@ -84,7 +85,8 @@ Table table_of_sequence(const MeasuredSequence& sequence, const SequenceMeasurem
                           error_words(row->rmse), error_words(row->worst_rmse), std::to_string(row->worst_frame),
                           fmt::format("{:.3f}", row->ssim), error_words(row->flicker.flicker())});
   if (!measurement.truth_change) {
-    table.below = {"no flicker: no surface is in two frames whose numbers follow one another (--frames 1-10 are such)"};
+    table.below = {fmt::format("no flicker: no surface is in two frames whose numbers follow one another ({} are such)",
+                               option("frames", "1-10"))};
     return table;
   }
   std::string truth = "the truth's own change is " + error_words(measurement.truth_change);

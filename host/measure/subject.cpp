@@ -8,6 +8,7 @@
 #include "gloam/error.h"
 #include "gloam/exr.h"
 #include "gloam/frame_files.h"
+#include "gloam/option.h"
 #include "gloam/scene/capture.h"
 #include "gloam/scene/reference.h"
 #include "measure/effects.h"
@@ -224,9 +225,8 @@ std::vector<std::pair<std::string, const View*>> views_for(const Frame& truth, c
   }
   if (found.empty())
     throw Error(
-        "{}: its name ends in no view of the frame ({}), and it has none of them; --view NAME takes one view of the "
-        "frame",
-        file.path().string(), enumerate(names));
+        "{}: its name ends in no view of the frame ({}), and it has none of them; {} takes one view of the frame",
+        file.path().string(), enumerate(names), option("view", "NAME"));
   return found;
 }
 
@@ -285,8 +285,8 @@ Truth read_truth(const std::vector<std::string>& paths, const std::string& plane
   std::vector<std::string> known, missing;
   for (const View& view : frame.views) (result.image.count(view.name) ? known : missing).push_back(view.name);
   if (!missing.empty())
-    notes.push_back(fmt::format("errors are of {} alone, as the truth has no {}; --truth once for each view gives both",
-                                enumerate(known), enumerate(missing)));
+    notes.push_back(fmt::format("errors are of {} alone, as the truth has no {}; {} once for each view gives both",
+                                enumerate(known), enumerate(missing), option("truth")));
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "normalise/background.h"
 #include "normalise/each_row.h"
 #include "normalise/stored_depth.h"
@@ -87,10 +88,9 @@ void mark_near_plane(Channel& depth, float near, std::vector<std::string>& assum
   const long long pixels = (long long)width * depth.layout().height;
   if (!is_a_mark(count, pixels)) return;
   for_each_row(depth.layout(), [&](int y) { std::replace(depth.row(y), depth.row(y) + width, near, infinity); });
-  assumed.push_back(
-      fmt::format("depth: {:.1f} % of the pixels are {:g}, exactly on the near plane, and taken as background; "
-                  "--background says otherwise",
-                  100 * double(count) / double(pixels), near));
+  assumed.push_back(fmt::format(
+      "depth: {:.1f} % of the pixels are {:g}, exactly on the near plane, and taken as background; {} says otherwise",
+      100 * double(count) / double(pixels), near, option("background")));
 }
 
 /// The map from window depth, checked: near and far are needed; flags override the camera.
@@ -100,17 +100,21 @@ WindowDepth window_depth(const Camera& camera, const StatedDepth& stated, std::v
   const std::optional<double> near = stated.near ? stated.near : camera.near;
   std::optional<double> far = stated.far ? stated.far : camera.far;
   if (!near)
-    throw Error("--depth {}: needs the distance of the near plane; give --near, or a camera that has it", name);
+    throw Error("{}: needs the distance of the near plane; give {}, or a camera that has it", option("depth", name),
+                option("near"));
   if (!far && reversed && !camera.orthographic) {
-    assumed.push_back("depth: the far plane taken as infinite; --far says otherwise");
+    assumed.push_back("depth: the far plane taken as infinite; " + option("far") + " says otherwise");
     far = std::numeric_limits<double>::infinity();
   }
-  if (!far) throw Error("--depth {}: needs the distance of the far plane; give --far, or a camera that has it", name);
+  if (!far)
+    throw Error("{}: needs the distance of the far plane; give {}, or a camera that has it", option("depth", name),
+                option("far"));
   if (!std::isfinite(*near) || (!camera.orthographic && !(*near > 0)))
-    throw Error("--depth {}: near is {:g}; expected a distance > 0", name, *near);
-  if (!(*far > *near)) throw Error("--depth {}: far is {:g}; expected more than near, {:g}", name, *far, *near);
+    throw Error("{}: near is {:g}; expected a distance > 0", option("depth", name), *near);
+  if (!(*far > *near))
+    throw Error("{}: far is {:g}; expected more than near, {:g}", option("depth", name), *far, *near);
   if (camera.orthographic && !std::isfinite(*far))
-    throw Error("--depth {}: far is infinite; an orthographic camera needs a finite one", name);
+    throw Error("{}: far is infinite; an orthographic camera needs a finite one", option("depth", name));
 
   const double at_near = camera.orthographic ? *near : 1 / *near, at_far = camera.orthographic ? *far : 1 / *far;
   WindowDepth map;
@@ -143,13 +147,14 @@ std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& wi
                           const StatedDepth& stated, std::vector<std::string>& assumed) {
   if (camera.slits && stated.convention != DepthConvention::automatic && stated.convention != DepthConvention::z)
     throw UsageError(
-        "--depth ray, ndc and reversed need a single centre of projection; the depth of a display's module is z");
+        "{} ray, ndc and reversed need a single centre of projection; the depth of a display's module is z",
+        option("depth"));
   if (stated.convention == DepthConvention::ndc || stated.convention == DepthConvention::reversed)
     return window_to_depth(depth, alpha, camera, stated, assumed);
 
   const StoredDepth found =
       look_at_depth(rows_of(depth), background_of(stated.background, stated.far ? stated.far : camera.far),
-                    stated.background.has_value(), "; --background says otherwise");
+                    stated.background.has_value(), "; " + option("background") + " says otherwise");
   assumed.insert(assumed.end(), found.notes.begin(), found.notes.end());
   clean_depth(depth, found.sign, found.background);
   if (stated.convention == DepthConvention::ray) {
@@ -158,8 +163,8 @@ std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& wi
   }
   if (found.sign < 0) return "negative z";
   if (stated.convention == DepthConvention::automatic)
-    assumed.push_back(fmt::format("depth: taken as planar distance along the viewing axis{}; --depth says otherwise",
-                                  found.is_in_unit_interval ? ", though all of it lies in 0..1" : ""));
+    assumed.push_back(fmt::format("depth: taken as planar distance along the viewing axis{}; {} says otherwise",
+                                  found.is_in_unit_interval ? ", though all of it lies in 0..1" : "", option("depth")));
   return "z";
 }
 

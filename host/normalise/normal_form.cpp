@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "normalise/common_turn.h"
 #include "normalise/normal_axes.h"
 
@@ -191,10 +192,10 @@ bool may_be_unit(const std::vector<NormalPair>& pairs, bool is_encoded) {
 /// The flags that differ between two conventions, with their words for the first.
 std::vector<std::string> differing_flags(const NormalForm& form, const NormalForm& other) {
   std::vector<std::string> flags;
-  if (form.space != other.space) flags.push_back(fmt::format("--normal-space {}", word_for(form.space)));
+  if (form.space != other.space) flags.push_back(option("normal-space", word_for(form.space)));
   if (form.is_encoded != other.is_encoded)
-    flags.push_back(fmt::format("--normal-range {}", form.is_encoded ? "unsigned" : "signed"));
-  if (form.axes != other.axes) flags.push_back("--normal-axes " + in_words(form.axes));
+    flags.push_back(option("normal-range", form.is_encoded ? "unsigned" : "signed"));
+  if (form.axes != other.axes) flags.push_back(option("normal-axes", in_words(form.axes)));
   return flags;
 }
 
@@ -218,10 +219,13 @@ bool note_turned(const Candidate& chosen, double best, const std::vector<NormalP
   if (turn.agreement < std::max(least_turned_agreement, best + least_gain_by_turn) ||
       !is_turned(chosen.agreement, turn))
     return false;
-  const char* likely = !pose ? "they are likely in world space, and the camera's pose is unknown (--camera gives it)"
-                       : chosen.form.space == NormalSpace::world
-                           ? "the camera's pose is likely wrong, and not the normals (--camera gives another)"
-                           : "they are likely those of another camera (--normal-space says where they are)";
+  const bool is_world = chosen.form.space == NormalSpace::world;
+  const std::string likely =
+      !pose ? fmt::format("they are likely in world space, and the camera's pose is unknown ({} gives it)",
+                          option("camera"))
+      : is_world
+          ? fmt::format("the camera's pose is likely wrong, and not the normals ({} gives another)", option("camera"))
+          : fmt::format("they are likely those of another camera ({} says where they are)", option("normal-space"));
   notes.push_back(
       fmt::format("normals: as {} space they agree with depth only to {:.2f}, and to {:.2f} if all were "
                   "turned by {:.0f} degrees: {}",
@@ -232,10 +236,10 @@ bool note_turned(const Candidate& chosen, double best, const std::vector<NormalP
 /// Of normals that are those of no surface here, or hardly, in any convention.
 bool note_strange(const Candidate& best, const std::vector<NormalPair>& pairs, std::vector<std::string>& notes) {
   if (best.agreement >= least_agreement || double(pairs.size()) < most_of_chance) return false;
-  notes.push_back(fmt::format(
-      "normals: they agree with depth to {:.2f} at best, in any convention: are they of this frame? (--plane "
-      "normal=none makes them from the depth)",
-      best.agreement));
+  notes.push_back(
+      fmt::format("normals: they agree with depth to {:.2f} at best, in any convention: are they of this frame? ({} "
+                  "makes them from the depth)",
+                  best.agreement, channels_option("normal", "none")));
   return true;
 }
 
@@ -263,8 +267,8 @@ NormalForm form_without_pose(const Candidate& chosen, const Candidate& plain, co
   else if (is_turned(chosen.agreement, turn))
     more = fmt::format(
         ", to {:.2f} if all were turned by {:.0f} degrees: they may be in world space, or the field of view may be "
-        "another (--camera gives both)",
-        turn.agreement, turn.degrees);
+        "another ({} gives both)",
+        turn.agreement, turn.degrees, option("camera"));
   if (!stated.expects_view || chosen.form != plain.form)
     notes.push_back(fmt::format("normals: {}: they agree with depth to {:.2f}{}", taken_in_words(chosen.form),
                                 chosen.agreement, more));
@@ -283,9 +287,10 @@ void note_taken(const Candidate& chosen, const Candidate& plain, const std::vect
   } else if (!is_space_stated && !stated.expects_view) {
     NormalForm other = chosen.form;
     other.space = chosen.form.space == NormalSpace::world ? NormalSpace::view : NormalSpace::world;
-    notes.push_back(fmt::format(
-        "normals: {}: they agree with depth to {:.2f}, as {} space to {:.2f}; --normal-space says otherwise",
-        taken_in_words(chosen.form), chosen.agreement, word_for(other.space), of_form(candidates, other).agreement));
+    notes.push_back(
+        fmt::format("normals: {}: they agree with depth to {:.2f}, as {} space to {:.2f}; {} says otherwise",
+                    taken_in_words(chosen.form), chosen.agreement, word_for(other.space),
+                    of_form(candidates, other).agreement, option("normal-space")));
   }
 }
 
@@ -336,10 +341,8 @@ NormalForm find_form(const std::vector<NormalPair>& pairs, const std::optional<P
   const bool is_space_stated = stated.convention.space != NormalSpace::automatic;
   if (pairs.empty() || (plain.space == NormalSpace::world && !pose)) {
     if (!is_space_stated && !stated.expects_view)
-      notes.push_back(
-          "normals: taken as view space, as no pixel has both a normal and a depth to compare it with; --normal-space "
-          "says "
-          "otherwise");
+      notes.push_back("normals: taken as view space, as no pixel has both a normal and a depth to compare it with; " +
+                      option("normal-space") + " says otherwise");
     return plain;
   }
   const std::vector<Candidate> candidates = candidates_of(pairs, pose, stated);

@@ -5,6 +5,7 @@
 
 #include "base/lists.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "gloam/unfit.h"
 #include "normalise/each_row.h"
 
@@ -144,9 +145,10 @@ std::vector<std::string> notes_on(const ColourCounts& counts, bool is_judged) {
          "the renderer's linear colour"},
         is_judged));
   else if (has_eight_bits(counts, counts.steps_of_light, counts.levels_of_light))
-    notes.push_back(
+    notes.push_back(fmt::format(
         "color: it holds the steps of an 8-bit sRGB picture made linear, and nothing above 1: light of lamps and of "
-        "the sky may have been cut off; give the renderer's own colour (--plane color=CHANNELS names another)");
+        "the sky may have been cut off; give the renderer's own colour ({} names another)",
+        channels_option("color", "CHANNELS")));
   return notes;
 }
 

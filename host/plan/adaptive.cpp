@@ -5,6 +5,7 @@
 
 #include "adaptive/params.h"
 #include "base/lists.h"
+#include "gloam/option.h"
 #include "gloam/planes.h"
 #include "plan/mask.h"
 #include "plan/resample.h"
@@ -19,14 +20,15 @@ constexpr int tile = base_resolution * pixels_of_tile;
 static_assert(tile % 16 == 0);
 
 void check_adaptive(const Plan& plan, const Technique& technique, const std::string& preset) {
-  if (plan.resolution != 1) throw UsageError("--adaptive {}: works at full resolution; leave out --resolution", preset);
+  if (plan.resolution != 1)
+    throw UsageError("{}: works at full resolution; leave out {}", option("adaptive", preset), option("resolution"));
   if (!contains(technique.writes, "ao_raw"))
-    throw UsageError("--adaptive {}: varies the samples of ambient occlusion, and {} makes {}; leave --adaptive out",
-                     preset, technique.name, enumerate(technique.writes));
+    throw UsageError("{}: varies the samples of ambient occlusion, and {} makes {}; leave {} out",
+                     option("adaptive", preset), technique.name, enumerate(technique.writes), option("adaptive"));
   const bool reads_stack = std::any_of(technique.reads.begin(), technique.reads.end(), is_stack);
   if (technique.views > 1 || reads_stack)
-    throw UsageError("--adaptive {}: {} reads {}, which a base pass does not; leave --adaptive out", preset,
-                     technique.name, reads_stack ? "further layers" : "two views");
+    throw UsageError("{}: {} reads {}, which a base pass does not; leave {} out", option("adaptive", preset),
+                     technique.name, reads_stack ? "further layers" : "two views", option("adaptive"));
 }
 
 ParameterValues with_preset(const Technique& technique, ParameterValues values, const std::string& name) {
@@ -35,8 +37,8 @@ ParameterValues with_preset(const Technique& technique, ParameterValues values, 
   if (preset == technique.presets.end()) {
     std::vector<std::string> names;
     for (const Preset& p : technique.presets) names.push_back(p.name);
-    throw UsageError("--adaptive {}: {} has no such preset{}; {}", name, technique.name, suggestion(name, names),
-                     names.empty() ? "it has none" : "it has " + enumerate(names));
+    throw UsageError("{}: {} has no such preset{}; {}", option("adaptive", name), technique.name,
+                     suggestion(name, names), names.empty() ? "it has none" : "it has " + enumerate(names));
   }
   for (const auto& [parameter, value] : preset->settings) values.set(parameter, value, technique.name);
   return values;
@@ -131,8 +133,8 @@ void adapt(Plan& plan, const std::vector<const Technique*>& techniques, const st
     return p.technique == &technique && is_estimate(p.pass) && p.pass.scale == 1;
   });
   if (estimate == plan.passes.end())
-    throw UsageError("--adaptive {}: {} has no estimate that can skip pixels; leave --adaptive out", preset,
-                     technique.name);
+    throw UsageError("{}: {} has no estimate that can skip pixels; leave {} out", option("adaptive", preset),
+                     technique.name, option("adaptive"));
   PlannedPass rest = estimate_of_rest(*estimate, with_preset(technique, estimate->values, preset));
   std::vector<PlannedPass> passes(plan.passes.begin(), estimate);
   append(passes, base_passes(plan, techniques));

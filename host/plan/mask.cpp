@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/lists.h"
+#include "gloam/option.h"
 #include "gloam/planes.h"
 #include "plan/adaptive.h"
 #include "plan/layouts.h"
@@ -196,19 +197,20 @@ void keep_skipped(Pass& pass) { pass.defines.emplace_back("KEEP", 1); }
 void restrict_to_mask(Plan& plan, const std::vector<const Technique*>& techniques, const Technique* elsewhere) {
   for (const Technique* technique : techniques) {
     if (technique->views > 1)
-      throw UsageError("--only: restricts techniques that read one view, and {} reads two; leave --only out",
-                       technique->name);
+      throw UsageError("{}: restricts techniques that read one view, and {} reads two; leave {} out", option("only"),
+                       technique->name, option("only"));
   }
   Restriction restriction(plan, techniques, elsewhere);
   const auto makes_mask = [&](const Technique* technique) { return contains(technique->writes, plan.mask); };
   if (std::all_of(techniques.begin(), techniques.end(), makes_mask) || restriction.is_of_what_it_restricts())
-    throw UsageError("--only: {} makes '{}' itself and cannot be restricted by it; leave --only out", plan.technique,
-                     plan.mask);
+    throw UsageError("{}: {} makes '{}' itself and cannot be restricted by it; leave {} out", option("only"),
+                     plan.technique, plan.mask, option("only"));
   if (elsewhere && looks_into_key_views(plan))
-    throw UsageError("--elsewhere {}: views reuse results of one technique only (reuse=on); leave one of the two out",
-                     elsewhere->name);
+    throw UsageError("{}: views reuse results of one technique only (reuse=on); leave one of the two out",
+                     option("elsewhere", elsewhere->name));
   if (!restriction.has_work())
-    throw UsageError("--only: {} has no pass that a mask can restrict; leave --only out", plan.technique);
+    throw UsageError("{}: {} has no pass that a mask can restrict; leave {} out", option("only"), plan.technique,
+                     option("only"));
   restriction.rewrite();
   plan.passes = std::move(restriction.passes);
   if (elsewhere)

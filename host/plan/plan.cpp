@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/lists.h"
+#include "gloam/option.h"
 #include "gloam/planes.h"
 #include "plan/adaptive.h"
 #include "plan/mask.h"
@@ -95,8 +96,8 @@ void check_full_resolution(const PlanRequest& request, const Techniques& techniq
   if (request.resolution == 1) return;
   for (const Technique* technique : techniques) {
     if (contains(technique->reads, "motion"))
-      throw UsageError("{}: works at full resolution, as motion is in its pixels; leave out --resolution",
-                       technique->name);
+      throw UsageError("{}: works at full resolution, as motion is in its pixels; leave out {}", technique->name,
+                       option("resolution"));
   }
 }
 

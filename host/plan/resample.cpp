@@ -4,6 +4,7 @@
 #include <set>
 
 #include "base/lists.h"
+#include "gloam/option.h"
 #include "gloam/planes.h"
 #include "resample/params.h"
 
@@ -94,11 +95,11 @@ class Reduction {
     for (const std::string& output : plan_.outputs) {
       if (made_.count(output) == 0) continue;
       if (contains(resampling().reads, output))
-        throw UsageError("{}: '{}' guides upsampling, so it needs every pixel; use --resolution full", plan_.technique,
-                         output);
+        throw UsageError("{}: '{}' guides upsampling, so it needs every pixel; use {}", plan_.technique, output,
+                         option("resolution", "full"));
       if (is_stack(output))
-        throw UsageError("{}: '{}' holds layers, which cannot be upsampled; use --resolution full", plan_.technique,
-                         output);
+        throw UsageError("{}: '{}' holds layers, which cannot be upsampled; use {}", plan_.technique, output,
+                         option("resolution", "full"));
       for (const std::string& guide : resampling().reads) need(guide);
       const auto pass_for = agreed_[output] ? upsample_of_both : upsample;
       passes.push_back({&resampling(), pass_for(output, plan_.resolution), values_});

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/lists.h"
+#include "gloam/option.h"
 #include "gloam/planes.h"
 #include "temporal/params.h"
 
@@ -164,9 +165,8 @@ namespace {
 void check_no_ao_beside(const PlanRequest& request, const Technique& technique) {
   for (const std::string& plane : request.with) {
     if (contains(technique.extras, "ao_raw") && (plane == "ao" || plane == "ao_raw"))
-      throw UsageError(
-          "--with {}: of {} is not accumulated over time; run bitmask --temporal for it, and leave it out here", plane,
-          technique.name);
+      throw UsageError("{}: of {} is not accumulated over time; run bitmask {} for it, and leave it out here",
+                       option("with", plane), technique.name, option("temporal"));
   }
 }
 
@@ -176,21 +176,23 @@ void check_temporal(const PlanRequest& request) {
   const std::vector<std::string> names = technique_names();
   const std::string& name = request.outputs.front();
   if (request.outputs.size() > 1 || !contains(names, name))
-    throw UsageError("--temporal: takes one technique, not {}", enumerate(request.outputs));
+    throw UsageError("{}: takes one technique, not {}", option("temporal"), enumerate(request.outputs));
   const Technique& technique = find_technique(name);
   if (!can_accumulate(technique) && contains(technique.writes, "reflection"))
-    throw UsageError("--temporal: {} has no form for sequences; {} has", name, enumerate(with_form_for_sequences()));
+    throw UsageError("{}: {} has no form for sequences; {} has", option("temporal"), name,
+                     enumerate(with_form_for_sequences()));
   if (!can_accumulate(technique))
-    throw UsageError(
-        "--temporal: {} makes neither raw ambient occlusion or indirect light nor reflections; leave it out", name);
+    throw UsageError("{}: {} makes neither raw ambient occlusion or indirect light nor reflections; leave it out",
+                     option("temporal"), name);
   if (request.resolution != 1)
-    throw UsageError(
-        "accumulation over time (--temporal, --history): works at full resolution; leave out --resolution");
+    throw UsageError("accumulation over time ({}, {}): works at full resolution; leave out {}", option("temporal"),
+                     option("history"), option("resolution"));
   if (!request.adaptive.empty() && request.adaptive != "none")
-    throw UsageError(
-        "accumulation over time (--temporal, --history): each pixel gets as many samples; leave out --adaptive");
+    throw UsageError("accumulation over time ({}, {}): each pixel gets as many samples; leave out {}",
+                     option("temporal"), option("history"), option("adaptive"));
   if (!request.mask.empty() && accumulated_of(technique))
-    throw UsageError("accumulation over time (--temporal, --history): goes on from whole images; leave out --only");
+    throw UsageError("accumulation over time ({}, {}): goes on from whole images; leave out {}", option("temporal"),
+                     option("history"), option("only"));
   check_no_ao_beside(request, technique);
 }
 

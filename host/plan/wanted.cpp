@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "base/lists.h"
+#include "gloam/option.h"
 #include "gloam/planes.h"
 
 namespace gloam {
@@ -80,9 +81,9 @@ const Technique& follower_named(const std::string& name, const Technique& techni
     if (follows(t, technique)) fitting.push_back(t.name);
   }
   if (fitting.empty())
-    throw UsageError("--filter {}: {} leaves nothing to a filter; only none fits", name, technique.name);
+    throw UsageError("{}: {} leaves nothing to a filter; only none fits", option("filter", name), technique.name);
   fitting.push_back("none");
-  throw UsageError("--filter {}: is no filter for {}{}; there are {}", name, technique.name,
+  throw UsageError("{}: is no filter for {}{}; there are {}", option("filter", name), technique.name,
                    follower ? "" : suggestion(name, fitting), enumerate(fitting));
 }
 
@@ -149,7 +150,7 @@ void want_extra(Wanted& wanted, const std::string& plane) {
     }
   }
   if (!contains(known, plane)) {
-    throw UsageError("--with {}: {} does not make it{}; {}", plane, wanted.makers.front()->name,
+    throw UsageError("{}: {} does not make it{}; {}", option("with", plane), wanted.makers.front()->name,
                      suggestion(plane, known), known.empty() ? "it has no extras" : "it has " + enumerate(known));
   }
   add_new(wanted.outputs, plane);
@@ -192,13 +193,11 @@ std::string want_mask(Wanted& wanted, const std::string& mask, const std::vector
     std::vector<std::string> names = plane_and_technique_names();
     names.insert(names.end(), available.begin(), available.end());
     throw UsageError(
-        "--only {}: is neither a plane at hand nor a technique that makes one{}; --plane mask=CHANNEL takes any "
-        "channel "
-        "of the file as 'mask'",
-        mask, suggestion(mask, names));
+        "{}: is neither a plane at hand nor a technique that makes one{}; {} takes any channel of the file as 'mask'",
+        option("only", mask), suggestion(mask, names), channels_option("mask", "CHANNEL"));
   }
   if (plane_kind(plane).components.size() != 1 || is_stack(plane))
-    throw UsageError("--only {}: '{}' has several values per pixel; corner-mask makes a mask", mask, plane);
+    throw UsageError("{}: '{}' has several values per pixel; corner-mask makes a mask", option("only", mask), plane);
   return plane;
 }
 
@@ -207,23 +206,27 @@ bool is_adaptive(const PlanRequest& request) { return !request.adaptive.empty() 
 const Technique* want_elsewhere(const PlanRequest& request, const Wanted& wanted) {
   if (request.elsewhere.empty()) return nullptr;
   const std::string& name = request.elsewhere;
-  if (request.mask.empty()) throw UsageError("--elsewhere {}: needs a mask; add --only MASK", name);
+  if (request.mask.empty())
+    throw UsageError("{}: needs a mask; add {}", option("elsewhere", name), option("only", "MASK"));
   if (request.resolution > 1)
-    throw UsageError("--elsewhere {}: works at full resolution; leave out --resolution", name);
+    throw UsageError("{}: works at full resolution; leave out {}", option("elsewhere", name), option("resolution"));
   if (is_adaptive(request))
-    throw UsageError("--elsewhere {}: goes without --adaptive {}; leave one of them out", name, request.adaptive);
+    throw UsageError("{}: goes without {}; leave one of them out", option("elsewhere", name),
+                     option("adaptive", request.adaptive));
   if (wanted.makers.empty())
-    throw UsageError("--elsewhere {}: nothing is estimated inside the mask; leave --elsewhere out", name);
+    throw UsageError("{}: nothing is estimated inside the mask; leave {} out", option("elsewhere", name),
+                     option("elsewhere"));
   const Technique& technique = find_technique(name);
   const Technique& asked_for = *wanted.makers.front();
   if (&technique == &asked_for)
-    throw UsageError("--elsewhere {}: also runs inside the mask; leave out --only and --elsewhere", name);
+    throw UsageError("{}: also runs inside the mask; leave out {} and {}", option("elsewhere", name), option("only"),
+                     option("elsewhere"));
   if (technique.writes != asked_for.writes || technique.views > 1)
-    throw UsageError("--elsewhere {}: makes {}, and {} makes {}; name an estimate of the same planes", name,
+    throw UsageError("{}: makes {}, and {} makes {}; name an estimate of the same planes", option("elsewhere", name),
                      enumerate(technique.writes), asked_for.name, enumerate(asked_for.writes));
   for (const std::string& extra : wanted.outputs) {
     if (contains(asked_for.extras, extra) && !contains(technique.extras, extra))
-      throw UsageError("--elsewhere {}: does not make '{}', which is asked for; leave that out", name, extra);
+      throw UsageError("{}: does not make '{}', which is asked for; leave that out", option("elsewhere", name), extra);
   }
   return &technique;
 }

@@ -1,8 +1,10 @@
 // The compiled part of the Python module: gloam/__init__.py is what users import.
+#include "gloam/option.h"
 #include "python/bindings.h"
 
 PYBIND11_MODULE(_gloam, module) {
   using namespace gloam::python;
+  gloam::set_caller(gloam::Caller::python);
   module.attr("version") = GLOAM_VERSION;
   add_errors(module);
   add_camera(module);

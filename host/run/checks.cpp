@@ -7,6 +7,7 @@
 #include "base/lists.h"
 #include "frame/check.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "gloam/planes.h"
 #include "plan/layouts.h"
 
@@ -20,9 +21,9 @@ void check_poses(const Plan& plan, const Frame& frame) {
   for (const View& view : frame.views) {
     if (!view.camera->pose)
       throw Error(
-          "{}: view '{}' has a camera without a pose, so its position beside the {} is unknown; give "
-          "camera_to_world in a --camera file",
-          plan.technique, view.name, frame.views.size() > 2 ? "others" : "other");
+          "{}: view '{}' has a camera without a pose, so its position beside the {} is unknown; give camera_to_world "
+          "in a {} file",
+          plan.technique, view.name, frame.views.size() > 2 ? "others" : "other", option("camera"));
   }
 }
 
@@ -53,8 +54,9 @@ const Technique* leading_technique(const Plan& plan) {
   }
   // Passes that nobody can ask for are the plan's own.
   const bool is_asked_for = contains(technique_names(), refusing.name);
-  throw Error("{}: {}, and {} needs one; leave it out", leading->name, what,
-              is_asked_for ? refusing.name : "what --resolution or --adaptive adds");
+  throw Error(
+      "{}: {}, and {} needs one; leave it out", leading->name, what,
+      is_asked_for ? refusing.name : fmt::format("what {} or {} adds", option("resolution"), option("adaptive")));
 }
 
 /// Checks that a view has what the plan's passes need to know about its projection.
@@ -62,10 +64,8 @@ void check_projections(const Plan& plan, const Frame& frame) {
   const bool reads_positions = contains(plan.inputs, "position");
   for (const View& view : frame.views) {
     if (reads_positions && !view.camera->pose)
-      throw Error(
-          "{}: positions of view '{}' are in world space, and its camera has no pose; --plane "
-          "position=none makes them from depth",
-          plan.technique, view.name);
+      throw Error("{}: positions of view '{}' are in world space, and its camera has no pose; {} makes them from depth",
+                  plan.technique, view.name, channels_option("position", "none"));
     if (!view.camera->slits) continue;
     for (const PlannedPass& planned : plan.passes) {
       if (!planned.technique->any_projection) refuse_module(plan, *planned.technique, view);
@@ -78,8 +78,9 @@ void check_projections(const Plan& plan, const Frame& frame) {
 void check_memory(const Plan& plan, const Layout& layout, size_t views, const DeviceInfo& info) {
   const unsigned long long needed = device_bytes(plan, layout, views);
   if (needed > info.memory) {
-    throw Error("{}: {}x{} pixels need {} of device memory, and {} has {}; use a smaller frame or another --device",
-                plan.technique, layout.width, layout.height, mebibytes(needed), info.name, mebibytes(info.memory));
+    throw Error("{}: {}x{} pixels need {} of device memory, and {} has {}; use a smaller frame or another {}",
+                plan.technique, layout.width, layout.height, mebibytes(needed), info.name, mebibytes(info.memory),
+                option("device"));
   }
   if (layout.count() > size_t(std::numeric_limits<int>::max())) {
     throw Error("{}: {}x{} pixels with rows padded to {} are more than 2^31; use a smaller frame", plan.technique,
@@ -91,9 +92,9 @@ void check_memory(const Plan& plan, const Layout& layout, size_t views, const De
     const unsigned long long bytes = layers * layouts.of(name).bytes();
     if (bytes <= info.largest_buffer) continue;
     const std::string what = layers == 1 ? "one plane" : fmt::format("'{}', {} layers", name, layers);
-    throw Error(
-        "{}: {} of {}x{} pixels takes {}, and {} allows {} for one buffer; use a smaller frame or another --device",
-        plan.technique, what, layout.width, layout.height, mebibytes(bytes), info.name, mebibytes(info.largest_buffer));
+    throw Error("{}: {} of {}x{} pixels takes {}, and {} allows {} for one buffer; use a smaller frame or another {}",
+                plan.technique, what, layout.width, layout.height, mebibytes(bytes), info.name,
+                mebibytes(info.largest_buffer), option("device"));
   }
 }
 
@@ -107,7 +108,8 @@ void check_options(const Plan& plan, const DeviceInfo& info, const RunOptions& o
   if (options.repeat < 1)
     throw UsageError("{}: {} runs are not allowed; 1 and more are", plan.technique, options.repeat);
   if (options.real == Real::float64 && !info.has_double) {
-    throw Error("{}: {} has no double precision; use --real float or another --device", plan.technique, info.name);
+    throw Error("{}: {} has no double precision; use {} or another {}", plan.technique, info.name,
+                option("real", "float"), option("device"));
   }
 }
 
@@ -115,8 +117,8 @@ void check_number_of_views(const Plan& plan, size_t views) {
   if (needs_two_views(plan) && views != 2)
     throw Error(
         "{}: needs a frame of two views, and this one has {}; gloam capture --view2 ANGLE or --stereo IPD makes one, "
-        "--views A,B takes two of more",
-        plan.technique, views);
+        "{} takes two of more",
+        plan.technique, views, option("views", "A,B"));
 }
 
 void check_views(const Plan& plan, const Frame& frame) {

@@ -6,6 +6,7 @@
 
 #include "base/lists.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "shared/both/stochastic.h"
 
 namespace gloam {
@@ -48,7 +49,7 @@ void check_options(const CaptureOptions& options) {
                      options.height);
   if (options.peel < 0 || options.peel > 64) throw UsageError("{} layers cannot be peeled; 0 to 64 can", options.peel);
   if (options.peel_light && options.peel == 0)
-    throw UsageError("light of layers is captured with layers; give their number too (--peel 8)");
+    throw UsageError("light of layers is captured with layers; give their number too ({})", option("peel", "8"));
   for (const std::string& plane : options.planes) {
     if (contains(capture_planes(), plane)) continue;
     throw UsageError("plane '{}' cannot be captured{}; {} can, and layers by their number", plane,

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "gloam/error.h"
+#include "gloam/option.h"
 
 namespace gloam {
 namespace {
@@ -16,7 +17,7 @@ const Technique* falloff_technique(const std::string& name) {
     if (t.name == name) return &t;
     names.push_back(t.name);
   }
-  throw UsageError("--falloff {} is not allowed{}; {} are", name, suggestion(name, names), enumerate(names));
+  throw UsageError("{} is not allowed{}; {} are", option("falloff", name), suggestion(name, names), enumerate(names));
 }
 
 }  // namespace
@@ -28,9 +29,10 @@ void set_falloff(AoReferenceOptions& options, const std::string& name, const Set
   for (const auto& [key, value] : settings) {
     const size_t dot = key.rfind('.');
     if (!technique || key.substr(0, dot) != technique->name)
-      throw UsageError("--set {}: the falloff is {}; with --falloff {} it can be set", key, name, key.substr(0, dot));
+      throw UsageError("{}: the falloff is {}; with {} it can be set", option("set", key), name,
+                       option("falloff", key.substr(0, dot)));
     if (key.substr(dot + 1) == "radius")
-      throw UsageError("--set {}: the radius is the reference's; give --radius", key);
+      throw UsageError("{}: the radius is the reference's; give {}", option("set", key), option("radius"));
     values.set(key.substr(dot + 1), value, technique->name);
   }
   if (!technique) return;

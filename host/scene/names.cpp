@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gloam/error.h"
+#include "gloam/option.h"
 
 namespace gloam {
 
@@ -14,8 +15,8 @@ const SceneCamera& named_camera(const Scene& scene, const std::string& name) {
     if (camera.name == name) return camera;
     names.push_back(camera.name);
   }
-  throw UsageError("--camera {}: {} has no camera of that name{}; it has {}, and a camera JSON can be given", name,
-                   scene.name, suggestion(name, names), enumerate(names));
+  throw UsageError("{}: {} has no camera of that name{}; it has {}, and a camera JSON can be given",
+                   option("camera", name), scene.name, suggestion(name, names), enumerate(names));
 }
 
 Scene load_scene(const NamedScene& named, const TellNotes& tell) {

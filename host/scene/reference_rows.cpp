@@ -17,6 +17,7 @@
 #include "base/low_discrepancy.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
+#include "gloam/option.h"
 #include "gloam/planes.h"
 #include "gloam/scene/camera_ray.h"
 #include "scene/fingerprint.h"
@@ -342,7 +343,8 @@ void check_views(const Frame& frame) {
   for (const View& view : frame.views) {
     if (!view.find("depth")) throw Error("view '{}' has no depth", view.name);
     if (!view.camera || !view.camera->pose)
-      throw Error("view '{}' has no pose, so that its place in the scene is unknown; give --camera FILE", view.name);
+      throw Error("view '{}' has no pose, so that its place in the scene is unknown; give {}", view.name,
+                  option("camera", "FILE"));
   }
 }
 

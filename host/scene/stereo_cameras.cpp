@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "scene/turned_pose.h"
 
 namespace gloam {
@@ -21,9 +22,9 @@ void check(const Camera& middle, const StereoRig& rig) {
     throw UsageError("toe-in turns the eyes towards a depth; give the convergence depth too");
   if (middle.orthographic && !rig.toe_in)
     throw UsageError(
-        "two eyes side by side see the same through an orthographic camera ({}); give --convergence D --toe-in, which "
-        "turns them, or a perspective camera",
-        middle.source);
+        "two eyes side by side see the same through an orthographic camera ({}); give {} {}, which turns them, or a "
+        "perspective camera",
+        middle.source, option("convergence", "D"), option("toe-in"));
 }
 
 /// Distance that the principal point of each eye moves outwards, pixels.

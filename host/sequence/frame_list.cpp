@@ -6,6 +6,7 @@
 #include "base/lists.h"
 #include "gloam/error.h"
 #include "gloam/frame_numbers.h"
+#include "gloam/option.h"
 
 namespace gloam {
 namespace {
@@ -42,8 +43,8 @@ Numbers asked_for(const Found& found, const FrameChoice& choice, std::vector<std
   for (int frame = found.any.front(); frame <= found.any.back(); ++frame) {
     (std::binary_search(found.any.begin(), found.any.end(), frame) ? all : between).push_back(frame);
     if (all.size() + between.size() > most_frames)
-      throw Error("frames {} to {}: more than {}; --frames names fewer", found.any.front(), found.any.back(),
-                  most_frames);
+      throw Error("frames {} to {}: more than {}; {} names fewer", found.any.front(), found.any.back(), most_frames,
+                  option("frames"));
   }
   if (choice.missing) {
     all.insert(all.end(), between.begin(), between.end());
@@ -86,11 +87,11 @@ std::vector<SequenceFrame> list_frames(const std::vector<FramePattern>& files, c
   }
   const bool is_error = choice.missing.value_or(MissingFrames::error) == MissingFrames::error;
   if (!missing.empty() && is_error)
-    throw Error("{} missing ({}); --missing skip leaves {} out{}",
+    throw Error("{} missing ({}); {} leaves {} out{}",
                 missing.size() == 1 ? fmt::format("frame {} is", missing.front())
                                     : fmt::format("frames {} are", frames_in_words(missing)),
-                lacking_file(files, missing.front()), missing.size() == 1 ? "it" : "them",
-                choice.may_hold ? ", --missing hold takes the frame before" : "");
+                lacking_file(files, missing.front()), option("missing", "skip"), missing.size() == 1 ? "it" : "them",
+                choice.may_hold ? fmt::format(", {} takes the frame before", option("missing", "hold")) : "");
   if (frames.empty())
     throw Error("{}: none of the frames {} is there, but {} are", names_of(files), frames_in_words(missing),
                 frames_in_words(there));

@@ -2,6 +2,7 @@
 
 #include "exr/holdings.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 
 namespace gloam {
 
@@ -15,9 +16,9 @@ Plan plan_for_files(const FrameFiles& files, const PlanRequest& request) {
     for (const std::string& plane : wanted) {
       const std::string why = files.why_missing(plane);
       if (!why.empty()) {
-        throw Error(
-            "{}: needs '{}', and in {} {}; {}", request.outputs.front(), plane, files.name(), why,
-            files.files().size() > 1 ? "give the file of the other view alone" : "--view NAME chooses another view");
+        throw Error("{}: needs '{}', and in {} {}; {}", request.outputs.front(), plane, files.name(), why,
+                    files.files().size() > 1 ? std::string("give the file of the other view alone")
+                                             : option("view", "NAME") + " chooses another view");
       }
     }
     throw;

@@ -7,6 +7,7 @@
 
 #include "base/file_ledger.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "normalise/normal_form.h"
 #include "sequence/pattern_reads.h"
 
@@ -131,7 +132,7 @@ SequenceFiles::SequenceFiles(std::vector<FramePattern> inputs, const ReadOptions
     : inputs_(std::move(inputs)), frames_(list_frames(inputs_, choice, notes)), options_(options) {
   const std::string camera = options.camera_file.string();
   if (FramePattern::is_pattern(camera))
-    cameras_.emplace(camera, "--camera");
+    cameras_.emplace(camera, option("camera"));
   else if (!camera.empty())
     camera_list_ = CameraList::of_file(camera, sources_of(frames_));
   tell_ledger();
@@ -151,7 +152,7 @@ void SequenceFiles::tell_ledger() const {
   if (cameras_)
     reads_pattern(*cameras_);
   else
-    reads_file(options_.camera_file, "--camera");
+    reads_file(options_.camera_file, option("camera"));
 }
 
 std::vector<int> SequenceFiles::numbers() const {

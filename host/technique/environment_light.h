@@ -8,6 +8,7 @@
 
 #include "gloam/environment_map.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "gloam/technique.h"
 
 namespace gloam {
@@ -60,7 +61,8 @@ Pass with_environment(Pass pass, const Params& p, int size) {
 template <typename Params>
 std::string environment_assumption(const Params& p, const View& view, const std::string& without) {
   if (p.environment == 0 && (p.environment_turn != 0 || p.environment_axes != Params::environment_axes_values::openexr))
-    return "environment: environment_axes and environment_turn have no effect without a map; give --environment FILE";
+    return "environment: environment_axes and environment_turn have no effect without a map; give " +
+           option("environment", "FILE");
   if (p.environment == 0) return without;
   if (view.camera && view.camera->pose) return "";
   return "environment: the pose of the camera is unknown, so up in the image is up in the map, whose middle lies "

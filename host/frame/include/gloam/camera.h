@@ -47,7 +47,7 @@ struct Camera {
   std::optional<double> near, far;        ///< clipping planes, scene units, where known
   std::optional<Pose> pose;               ///< none: world-space planes cannot be used
   std::shared_ptr<const TwoSlits> slits;  ///< of a light-field display's module; null: perspective or orthographic
-  std::string source;                     ///< where it came from: "header", a file's name, "--fov", "assumed ..."
+  std::string source;  ///< where it came from: "header", a file's name, the option (option.h), "assumed ..."
 };
 
 /// Throws Error if fx or fy is not a finite number above 0, or the principal point or the pose is not finite.
