@@ -6,6 +6,7 @@
 
 #include "gloam/error.h"
 #include "gloam/run.h"
+#include "gloam/variants.h"
 #include "measure/plans.h"
 
 namespace gloam::bench {
@@ -19,7 +20,7 @@ std::pair<std::string, std::vector<std::string>> technique_for(const std::string
     if (name == occluders || name.starts_with(occluders + ".")) planes.push_back(name);
   }
   if (occluders == "back_depth") return {"evidence", planes};
-  return {(occluders == "peel" ? "dp-" : "sd-") + std::string("evidence"), planes};
+  return {variant_name("evidence", {occluders == "peel" ? Layers::peeled : Layers::stochastic}), planes};
 }
 
 Variation variation_of(const std::string& technique, const TrainingFrame& training, const Sampling& sampling) {

@@ -5,9 +5,9 @@
 #include "base/lists.h"
 #include "gloam/history.h"
 #include "gloam/planes.h"
+#include "gloam/variants.h"
 #include "measure/effects.h"
 #include "shared/sampling/ambient_occlusion.h"
-#include "technique/ambient_occlusion.h"
 
 namespace gloam::bench {
 namespace {
@@ -72,13 +72,9 @@ bool any_makes_first_view_only(const std::vector<const Technique*>& techniques) 
 
 const Technique* over_all_layers(const Technique& technique) {
   if (contains(technique.reads, "peel")) return &technique;
-  // Over all layers "sd-hbao+" is "dp-hbao+" as well.
-  const bool is_stochastic = technique.name.starts_with(stochastic_prefix);
-  const std::string base = technique.name.substr(is_stochastic ? stochastic_prefix.size() : 0);
-  for (const Technique& other : registry()) {
-    if (other.name == std::string(peeled_prefix) + base) return &other;
-  }
-  return nullptr;
+  const Variant is = variant_of(technique);
+  return is.both_eyes ? nullptr
+                      : find_variant({is.of, Layers::peeled});  // "sd-hbao+", too, is "dp-hbao+" over all layers
 }
 
 Settings settings_over_other_layers(const Settings& settings, const Technique& from, const Technique& to) {

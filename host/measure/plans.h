@@ -26,7 +26,7 @@ bool reads_layers(const Technique& technique);
 /// Whether any of the techniques makes an image of only the first of two views.
 bool any_makes_first_view_only(const std::vector<const Technique*>& techniques);
 
-/// The technique over all peeled layers: "dp-hbao+" for "hbao+"; itself if it reads layers already. None if the registry has none.
+/// The technique over all peeled layers (`Technique::variant`): "dp-hbao+" for "hbao+"; itself if it reads them already. None if there is none.
 const Technique* over_all_layers(const Technique& technique);
 
 /// Precision of planes between input, passes and result. Kernels read and write floats: half only shows its cost in accuracy

@@ -4,9 +4,10 @@
 
 #include "base/lists.h"
 #include "exr/read_words.h"
+#include "gloam/variants.h"
 #include "normalise/normal_axes.h"
 #include "run/run_words.h"
-#include "technique/default_technique.h"
+#include "technique/variant_words.h"
 
 namespace gloam::python {
 namespace {
@@ -27,8 +28,8 @@ std::vector<std::string> names(const py::dict& words, const char* name) {
   return has(words, name) ? taken<std::vector<std::string>>(words, name) : std::vector<std::string>();
 }
 
-template <typename Value>
-void take_choice(const py::dict& words, const char* name, const Choices<Value>& choices, Value& value) {
+template <typename Value, typename Target>
+void take_choice(const py::dict& words, const char* name, const Choices<Value>& choices, Target& value) {
   if (has(words, name)) value = value_of(taken<std::string>(words, name), name, choices);
 }
 
@@ -60,8 +61,10 @@ std::string json_of(const Camera& camera) {
 PlanRequest plan_request(const py::dict& words) {
   PlanRequest request;
   if (has(words, "technique")) {
-    request.outputs = {technique_for(taken<std::string>(words, "technique"))};
-    find_technique(request.outputs.front());
+    VariantChoice variant;
+    take_choice(words, "layers", layers_words, variant.layers);
+    take_choice(words, "eyes", eyes_words, variant.both_eyes);
+    request.outputs = {variant_name(taken<std::string>(words, "technique"), variant)};
   }
   request.only = names(words, "outputs");
   request.with = names(words, "extras");

@@ -5,6 +5,7 @@
 #include "gloam/radius.h"
 #include "gloam/technique.h"
 #include "python/bindings.h"
+#include "technique/variant_words.h"
 
 namespace gloam::python {
 namespace {
@@ -37,6 +38,12 @@ py::dict parameter_of(const Parameter& parameter) {
   return facts;
 }
 
+py::object variant_facts(const Variant& variant) {
+  if (variant.of.empty()) return py::none();
+  return py::dict(py::arg("of") = variant.of, py::arg("layers") = word_for(variant.layers, layers_words),
+                  py::arg("eyes") = word_for(variant.both_eyes, eyes_words));
+}
+
 py::dict technique_of(const Technique& technique) {
   py::list parameters;
   for (const Parameter& parameter : technique.parameters) parameters.append(parameter_of(parameter));
@@ -60,6 +67,7 @@ py::dict technique_of(const Technique& technique) {
   facts["caution"] = technique.caution;
   facts["parameters"] = parameters;
   facts["presets"] = presets;
+  facts["variant"] = variant_facts(technique.variant);
   return facts;
 }
 

@@ -11,8 +11,8 @@
 #include "base/lists.h"
 #include "base/statistics.h"
 #include "gloam/error.h"
+#include "gloam/technique.h"
 #include "report/markdown_text.h"
-#include "technique/ambient_occlusion.h"
 
 namespace gloam::report {
 namespace {
@@ -35,10 +35,11 @@ struct Pair {
   bool is_over_one_layer = false;  ///< `given` takes part in the comparison for the least error
 };
 
-/// The name of the technique without the prefix for peeled layers (technique/ambient_occlusion.h).
+/// The method whose variant over all peeled layers a technique is, else its own name.
 std::string name_of_pair(const Converged& each) {
-  const bool is_named_after = reads_peeled_layers(each.reads) && each.technique.starts_with(peeled_prefix);
-  return each.technique.substr(is_named_after ? peeled_prefix.size() : 0);
+  for (const Technique& t : registry())
+    if (t.name == each.technique && t.variant.layers == Layers::peeled) return t.variant.of;
+  return each.technique;
 }
 
 std::vector<Pair> pairs_of(const std::vector<Converged>& list) {

@@ -227,6 +227,7 @@ void add_bench(CLI::App& app) {
       ->type_name("A,B");
   command->add_option("--techniques", flags->techniques, "these only; default: all that make the effects of every view")
       ->type_name("A,B");
+  flags->variant.add_to(*command);
   command->add_option("--presets", flags->presets, "these only; default: all that a technique has")->type_name("A,B");
   CLI::Option* scenes =
       command->add_option("--scenes", flags->scenes, "built-in scenes, or all; default: " + enumerate(default_scenes))
@@ -325,6 +326,7 @@ void add_bench(CLI::App& app) {
       "  gloam bench -o out/bench                       what fits in a minute\n"
       "  gloam bench -o out/bench --all                 everything\n"
       "  gloam bench -o out/bench --techniques hbao+ --scenes all --size 1920x1080\n"
+      "  gloam bench -o out/layers --techniques gtao,hbao+ --layers stochastic\n"
       "  gloam bench -o out/steps --techniques gtao --presets medium --sweep steps=4,9,18 --sweep directions=1,2,4\n"
       "  gloam bench -o 'out/bench.##' --scenes all --chunks 7 --print | parallel\n"
       "  gloam bench -o out/shi2022 --paper shi2022\n"

@@ -30,9 +30,9 @@ void choose_techniques(BenchOptions& options, const BenchCommand& flags, Measure
   for (const Technique& t : registry()) {
     if (!list.empty()) continue;
     const std::string unlike = why_not_measured(t, options.effects), why = unlike.empty() ? needs_naming(t) : unlike;
-    if (why.empty())
+    if (why.empty() && flags.variant.fits(t))
       options.techniques.push_back(&t);
-    else
+    else if (!why.empty())
       result.skipped.push_back({t.name, "", "", why});
   }
   // A truth that several techniques share has the name of the one over a single layer.
@@ -40,7 +40,7 @@ void choose_techniques(BenchOptions& options, const BenchCommand& flags, Measure
                         [](const Technique* t) { return !reads_layers(*t); });
   if (list.empty()) return;
   for (const std::string& name : split_list(list, "--techniques")) {
-    const Technique& t = find_technique(name);
+    const Technique& t = find_technique(variant_name(name, flags.variant));
     if (const std::string why = why_not_measured(t, options.effects); !why.empty())
       throw UsageError("--techniques {}: {}; {} can be measured", name, why,
                        enumerate(techniques_making(options.effects)));

@@ -18,6 +18,7 @@ enum class Regression { time, error, both };
 /// The flags as given.
 struct BenchCommand : DeviceFlags {
   std::vector<std::string> truths;
+  VariantFlags variant;
   std::string paper, folder, effects, techniques, scenes, presets, frame, sequence, variants, set, items;
   std::vector<std::string> sweeps;
   std::optional<Size> size;

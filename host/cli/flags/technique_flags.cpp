@@ -6,6 +6,7 @@
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "run/kept_folders.h"
+#include "technique/variant_words.h"
 
 namespace gloam::cli {
 namespace {
@@ -27,6 +28,21 @@ std::string extras_in_words() {
 }
 
 }  // namespace
+
+void VariantFlags::add_to(CLI::App& app) {
+  add_choice(
+      app, "--layers", layers, layers_words,
+      "which depths a technique reads: the one that is seen, stochastic or peeled layers; default: as its name says")
+      ->group("Technique");
+  add_choice(app, "--eyes", both_eyes, eyes_words,
+             "both: for two views that agree on what both of them see; default: as the technique's name says")
+      ->group("Technique");
+}
+
+bool VariantFlags::fits(const Technique& technique) const {
+  const Variant& is = technique.variant;
+  return is.layers == layers.value_or(is.layers) && is.both_eyes == both_eyes.value_or(is.both_eyes);
+}
 
 void TechniqueFlags::add_to(CLI::App& app, bool with_mask) {
   app.add_option("--set", settings, "set a parameter; --radius 0.3 is short for --set radius=0.3 (repeatable)")
@@ -65,6 +81,7 @@ void TechniqueFlags::add_to(CLI::App& app, bool with_mask) {
                  "technique that estimates what --only leaves out: run sd-gtao --only hidden-mask --elsewhere gtao")
       ->type_name("TECHNIQUE")
       ->group("Technique");
+  variant.add_to(app);
 }
 
 PlanRequest TechniqueFlags::request(const std::vector<std::string>& outputs) const {

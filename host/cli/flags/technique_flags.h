@@ -9,9 +9,18 @@
 #include "flags/typed.h"
 #include "gloam/plan.h"
 #include "gloam/run.h"
+#include "gloam/variants.h"
 #include "run/run_words.h"
 
 namespace gloam::cli {
+
+/// Which variant of the techniques that are named.
+struct VariantFlags : VariantChoice {
+  void add_to(CLI::App& app);
+  bool any() const { return layers || both_eyes; }
+  /// Whether a technique is what is asked for; any is where nothing is.
+  bool fits(const Technique& technique) const;
+};
 
 /// Techniques and their parameters.
 struct TechniqueFlags {
@@ -19,7 +28,8 @@ struct TechniqueFlags {
   std::string preset, then, with, adaptive, only, elsewhere;
   int resolution = 1;
   bool temporal = false;
-  /// `with_mask`: adds --only, --elsewhere and --temporal as well.
+  VariantFlags variant;
+  /// `with_mask`: adds --only, --elsewhere, --temporal, --layers and --eyes as well.
   void add_to(CLI::App& app, bool with_mask = true);
   PlanRequest request(const std::vector<std::string>& outputs) const;
 };

@@ -7,7 +7,9 @@
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "gloam/radius.h"
+#include "gloam/variants.h"
 #include "measure/plans.h"
+#include "technique/variant_words.h"
 
 namespace gloam::cli {
 
@@ -41,6 +43,17 @@ std::string default_in_words(const Parameter& p) {
   return is_radius(p) ? "from the frame" : ParameterValues({p}).text(p.name);
 }
 
+namespace {
+
+Json variant_document(const Variant& variant) {
+  if (variant.of.empty()) return nullptr;
+  return {{"of", variant.of},
+          {"layers", word_for(variant.layers, layers_words)},
+          {"eyes", word_for(variant.both_eyes, eyes_words)}};
+}
+
+}  // namespace
+
 Json techniques_document(const std::vector<const Technique*>& techniques) {
   Json document = Json::array();
   for (const Technique* technique : techniques) {
@@ -62,7 +75,8 @@ Json techniques_document(const std::vector<const Technique*>& techniques) {
                         {"parameters", parameters},
                         {"presets", presets},
                         {"default_for", t.default_for},
-                        {"caution", t.caution}});
+                        {"caution", t.caution},
+                        {"variant", variant_document(t.variant)}});
   }
   return document;
 }
@@ -85,17 +99,10 @@ bool makes(const Technique& t, const std::string& plane) {
   return !bench::is_filter(t) && contains(outputs_of(t), plane);
 }
 
-/// A technique belongs to the first group that fits.
+/// A technique belongs to the first group that fits; variants are listed with their methods.
 const std::vector<Group>& groups() {
   static const std::vector<Group> all = {
-      {"ambient occlusion from depth",
-       [](const Technique& t) {
-         return makes(t, "ao") && t.views == 1 && !t.any_projection && !bench::reads_layers(t) &&
-                !contains(t.reads, "outline_count");
-       }},
-      {"ambient occlusion from layers of depth, or outlines, too",
-       [](const Technique& t) { return makes(t, "ao") && t.views == 1 && !t.any_projection; }},
-      {"ambient occlusion of two views", [](const Technique& t) { return makes(t, "ao") && t.views > 1; }},
+      {"ambient occlusion", [](const Technique& t) { return makes(t, "ao") && !t.any_projection; }},
       {"ambient occlusion on light-field displays", [](const Technique& t) { return makes(t, "ao"); }},
       {"indirect light", [](const Technique& t) { return makes(t, "indirect"); }},
       {"ambient light", [](const Technique& t) { return makes(t, "bounces") || makes(t, "specular_occlusion"); }},
@@ -118,18 +125,49 @@ std::string preset_in_words(const Preset& preset, const char* separator) {
 
 }  // namespace
 
+namespace {
+
+std::vector<const Technique*> methods() {
+  std::vector<const Technique*> all;
+  for (const Technique& t : registry())
+    if (t.variant.of.empty()) all.push_back(&t);
+  return all;
+}
+
+/// The variants of a method for one eye, by the word for their layers, or those for both: "stochastic peeled", "both".
+/// `shown`: how a variant is shown, of the row and its word.
+std::string variants_in_words(const Technique& method, bool both_eyes, const char* between,
+                              const std::function<std::string(const Technique&, const std::string&)>& shown) {
+  std::vector<std::string> words;
+  for (const auto& [layers, value] : layers_words) {
+    const Technique* variant = find_variant({method.name, value, both_eyes});
+    if (!variant || variant == &method) continue;
+    const std::string word = !both_eyes ? layers : value == Layers::one ? "both" : "both+" + layers;
+    words.push_back(shown(*variant, word));
+  }
+  return fmt::format("{}", fmt::join(words, between));
+}
+
+}  // namespace
+
 void print_techniques() {
   size_t width = 0;
-  for (const std::string& name : technique_names()) width = std::max(width, name.size());
+  for (const Technique* t : methods()) width = std::max(width, t->name.size());
+  fmt::print("{:<{}}  {:<17}  {}\n", "", width + 2, "--layers", "--eyes");
   for (const Group& group : groups()) {
     fmt::print("{}{}\n", &group == &groups().front() ? "" : "\n", group.heading);
-    for (const Technique& t : registry()) {
-      if (&group_of(t) != &group) continue;
-      const bool is_default = contains(t.default_for, "ao_raw");
-      fmt::print("  {:<{}}  {}{}\n", t.name, width, t.summary, is_default ? " (the default: gloam run ao)" : "");
+    for (const Technique* t : methods()) {
+      if (&group_of(*t) != &group) continue;
+      const auto columns = [&](bool both_eyes) {
+        return variants_in_words(*t, both_eyes, " ", [](const Technique&, const std::string& word) { return word; });
+      };
+      const bool is_default = contains(t->default_for, "ao_raw");
+      fmt::print("  {:<{}}  {:<17}  {:<15}  {}{}\n", t->name, width, columns(false), columns(true), t->summary,
+                 is_default ? " (the default: gloam run ao)" : "");
     }
   }
-  fmt::print("\ngloam list techniques NAME shows parameters, presets, and what a technique reads and writes.\n");
+  fmt::print(
+      "\ngloam list techniques NAME shows parameters, presets, variants, and what a technique reads and writes.\n");
 }
 
 void print_technique(const Technique& t, const std::set<std::string>& settable) {
@@ -137,6 +175,8 @@ void print_technique(const Technique& t, const std::set<std::string>& settable) 
   if (!t.paper.empty()) fmt::print("  paper   {}\n", t.paper);
   fmt::print("  reads   {}\n  writes  {}\n", all_reads(t), fmt::join(t.writes, ", "));
   if (t.views > 1) fmt::print("  views   a frame of two\n");
+  if (!t.variant.of.empty()) fmt::print("  variant {} {}\n", t.variant.of, options_of(t.variant));
+  for (const Technique* v : variants_of(t)) fmt::print("  variant {}: {}\n", options_of(v->variant), v->name);
   if (!t.then.empty()) fmt::print("  then    {} (--filter chooses another, or none)\n", t.then);
   for (const std::string& plane : t.extras) fmt::print("  --with  {}: {}\n", plane, plane_kind(plane).help);
   if (contains(t.default_for, "ao_raw")) fmt::print("  default for ao: gloam run ao, plan ao and auto take it\n");
@@ -197,6 +237,7 @@ void print_extras_markdown(const Technique& t) {
 void print_section(const Technique& t) {
   fmt::print("\n## `{}`\n\n{}.{}\n", t.name, t.summary, t.paper.empty() ? "" : " Source: " + t.paper + ".");
   if (!t.then.empty()) fmt::print("Followed by `{}` unless `--filter` says otherwise.\n", t.then);
+  if (!t.variant.of.empty()) fmt::print("The same as `{} {}`.\n", t.variant.of, options_of(t.variant));
   if (t.views > 1)
     fmt::print("Needs a frame of two views{}.\n", makes_first_view_only(t) ? "; it works on the first" : "");
   print_extras_markdown(t);
@@ -216,11 +257,19 @@ void print_section(const Technique& t) {
 void print_techniques_markdown() {
   fmt::print(
       "# Techniques\n\nWritten by `gloam list techniques --markdown` from the folders of `kernels/`; do not edit.\n\n");
-  fmt::print("| technique | what it does | reads | writes |\n|---|---|---|---|\n");
+  fmt::print(
+      "`--layers` and `--eyes` choose a method's variants: over stochastic or peeled layers of depth, or for both of "
+      "two eyes.\n"
+      "`gloam run gtao F.exr --layers peeled` is `gloam run dp-gtao F.exr`.\n\n"
+      "| technique | what it does | layers | eyes | reads | writes |\n|---|---|---|---|---|---|\n");
   const std::vector<std::string> names = technique_names(), anchors = anchors_of(names);
-  for (size_t i = 0; i < names.size(); ++i) {
-    const Technique& t = registry()[i];
-    fmt::print("| [`{}`](#{}) | {} | {} | {} |\n", t.name, anchors[i], t.summary, all_reads(t), all_writes(t));
+  const auto link = [&](const Technique& t, const std::string& word) {
+    return fmt::format("[{}](#{})", word, anchors[size_t(&t - registry().data())]);
+  };
+  for (const Technique* t : methods()) {
+    fmt::print("| {} | {} | {} | {} | {} | {} |\n", link(*t, "`" + t->name + "`"), t->summary,
+               variants_in_words(*t, false, ", ", link), variants_in_words(*t, true, ", ", link), all_reads(*t),
+               all_writes(*t));
   }
   for (const Technique& t : registry()) print_section(t);
 }

@@ -24,6 +24,7 @@ using namespace gloam::bench;
 struct PickCommand : DeviceFlags {
   std::vector<std::string> truths;
   std::string frame, techniques;
+  VariantFlags variant;
   std::optional<double> budget, error, radius;  ///< budget: milliseconds
   PickBy by = PickBy::rmse;
   int rays = 256, rounds = 9;
@@ -36,7 +37,10 @@ struct PickCommand : DeviceFlags {
 };
 
 std::vector<std::string> named_techniques(const PickCommand& flags) {
-  return flags.techniques.empty() ? std::vector<std::string>() : split_list(flags.techniques, "--techniques");
+  std::vector<std::string> names;
+  if (!flags.techniques.empty()) names = split_list(flags.techniques, "--techniques");
+  for (std::string& name : names) name = variant_name(name, flags.variant);
+  return names;
 }
 
 /// Without techniques.
@@ -132,6 +136,7 @@ void pick_command(const PickCommand& flags) {
   const std::string effect = is_shot ? "ao" : effect_to_pick(flags.truths, named);
   PickOptions options = options_of(flags);
   options.techniques = techniques_to_pick(named, effect, left_out);
+  if (named.empty()) std::erase_if(options.techniques, [&](const auto* t) { return !flags.variant.fits(*t); });
   if (is_shot && flags.app->get_option("--time")->count() > 0)
     throw UsageError("--time: of a shot all settings are tried; leave it out, or name fewer --techniques or --frames");
   if (is_shot) return pick_shot(flags, options, left_out);
@@ -195,6 +200,7 @@ void add_pick(CLI::App& app) {
       ->add_option("--techniques", flags->techniques,
                    "these only; default: all that make the truth's effect of every view, without a truth ao")
       ->type_name("A,B");
+  flags->variant.add_to(*command);
   add_number(*command, "--radius", flags->radius, allowed_radii,
              "scene units; default: the truth's, else the scene's own, else made from the frame")
       ->type_name("R");

@@ -53,10 +53,13 @@ void add_plan(CLI::App& app) {
   flags->json.add_to(*command);
   command->footer(
       "Examples:\n  gloam plan ao frame.exr\n  gloam plan normals,hbao+ frame.exr --json -\n"
-      "  gloam plan multiview pair_L.exr pair_R.exr");
+      "  gloam plan multiview pair_L.exr pair_R.exr\n  gloam plan gtao pair.exr --eyes both");
   command->callback([flags] {
     check_paths(flags->frame.inputs(), {{"--json", flags->json.file()}});
-    PlanRequest request = flags->technique.request(split_list(flags->outputs, "OUTPUT"));
+    std::vector<std::string> outputs = split_list(flags->outputs, "OUTPUT");
+    if (flags->technique.variant.any())
+      for (std::string& name : outputs) name = variant_name(name, flags->technique.variant);
+    PlanRequest request = flags->technique.request(outputs);
     ReadOptions options = flags->frame_flags.read_options();
     options.only_looks = true;
     FrameFiles files = flags->frame.open(options);

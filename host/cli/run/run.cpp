@@ -10,7 +10,6 @@
 #include "cli/run/shot.h"
 #include "gloam/error.h"
 #include "gloam/frame_pattern.h"
-#include "technique/default_technique.h"
 
 namespace gloam::cli {
 namespace {
@@ -20,8 +19,7 @@ const std::set<std::string> not_of_chunks = {"--frames", "--warm-up", "--resume"
 
 void run_command(const RunCommand& given, const CLI::App& command) {
   RunCommand flags = given;
-  flags.technique = technique_for(given.technique);
-  find_technique(flags.technique);
+  flags.technique = variant_name(given.technique, given.technique_flags.variant);
   PlanRequest request = flags.technique_flags.request({flags.technique});
   if (!flags.outputs.empty()) request.only = split_list(flags.outputs, "--outputs");
   if (flags.frame.has_pattern()) {
@@ -70,6 +68,7 @@ void add_run(CLI::App& app) {
       "  gloam run hbao+ frame.exr -o ao.exr --preset high --filter none --repeat 9\n"
       "  gloam run hbao+ pair_L.exr pair_R.exr -o ao.exr --camera pair.camera.json\n"
       "  gloam run gtao frame.exr -o ao.exr --only corner-mask\n"
+      "  gloam run gtao layers.exr -o ao.exr --layers peeled\n"
       "  gloam run temporal-sssr frame.0002.exr --history reflection.0001.exr -o reflection.0002.exr\n"
       "  gloam run gtao 'shot.####.exr' -o 'ao.####.exr' --frames 1001-1100 --resume\n"
       "  gloam run gtao 'shot.####.exr' -o 'ao.####.exr' --frames 1-1000 --chunks 25 --print | parallel\n"

@@ -13,7 +13,7 @@ Pass = collections.namedtuple("Pass", ["view", "name", "ms"])
 Pass.__doc__ = "A pass of a run: the view, its name such as 'gtao/estimate', and a list of times on the device, milliseconds."
 
 #: Keywords of `run` that are neither planes nor parameters of techniques.
-_OPTIONS = ("preset", "filter", "extras", "outputs", "resolution", "adaptive", "only", "elsewhere", "math", "real", "lanes", "seed",
+_OPTIONS = ("layers", "eyes", "preset", "filter", "extras", "outputs", "resolution", "adaptive", "only", "elsewhere", "math", "real", "lanes", "seed",
             "repeat", "strips")
 
 #: Those that are named in its signature.
@@ -187,7 +187,7 @@ def shared_words(parameters, settings, options):
     words = {"settings": _words.settings(parameters, settings)}
     for name in ("outputs", "extras"):
         words[name] = _words.names(name, options.get(name))
-    for name in ("preset", "filter", "resolution", "adaptive", "only", "elsewhere"):
+    for name in ("layers", "eyes", "preset", "filter", "resolution", "adaptive", "only", "elsewhere"):
         words[name] = _words.text(name, options.get(name))
     run_words = {name: _words.text(name, options.get(name)) for name in ("math", "real")}
     run_words.update({name: _words.integer(name, options.get(name)) for name in ("lanes", "seed", "repeat")})
@@ -270,6 +270,7 @@ def run(technique, frame=None, *, camera=None, fov=None, views=None, device=None
         the depth in another convention alone are taken in that one, and a note says so.
     Parameters of the technique by keyword: radius (scene units), samples, ...; settings: the same as a dict, for names with a dot
         ({"bilateral.radius": 2}). Without a radius one is made from the frame, and the result says so.
+    layers: "one", "stochastic" or "peeled", and eyes: "one" or "both", choose a variant of the technique: "gtao" with layers="peeled" is "dp-gtao".
     preset: "low", "medium", "high" or "ultra".  outputs: planes to make, of the usual ones.  extras: planes to make beside them.
     filter: the technique that follows, or "none".  resolution: "full", "half" or "quarter".  adaptive: a preset.
     only: a mask: an array, above 0 where work is wanted, a plane's name, or a technique that makes one.  elsewhere: a technique.
