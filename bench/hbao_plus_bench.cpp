@@ -22,7 +22,7 @@ namespace {
 constexpr int rounds = 15;
 
 Plan hbao_plus_plan(const Frame& frame, float radius) {
-  PlanRequest request{.outputs = {"hbao+"}, .only = {"ao_raw"}, .then = "none"};
+  PlanRequest request{.outputs = {"hbao+"}, .only_outputs = {"ao_raw"}, .filter = "none"};
   request.settings = {{"radius", fmt::format("{}", radius)},
                       {"directions", std::to_string(directions)},
                       {"steps", std::to_string(steps)},

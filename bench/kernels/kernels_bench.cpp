@@ -34,9 +34,9 @@ std::vector<std::string> planes_read(const Technique& technique, int layers) {
 
 /// The technique alone: all its inputs are there, and nothing follows. None if it needs more layers than there are.
 std::optional<Plan> plan_alone(const Technique& technique, float radius, int layers) {
-  PlanRequest request{.outputs = {technique.name}, .then = "none"};
+  PlanRequest request{.outputs = {technique.name}, .filter = "none"};
   for (const std::string& plane : technique.writes) {
-    if (contains(outputs_of(technique), plane)) request.only.push_back(plane);
+    if (contains(outputs_of(technique), plane)) request.only_outputs.push_back(plane);
   }
   if (const std::string name = radius_parameter(technique.parameters); !name.empty())
     request.settings.emplace_back(name, fmt::format("{}", radius));

@@ -74,8 +74,8 @@ Stage Study::small_stage(const Shot& shot, int divisor) const {
 
 Plan Study::plan_of(const Stage& s, const Asked& asked) const {
   PlanRequest request{
-      .outputs = {asked.technique}, .only = {asked.plane}, .mask = asked.mask, .resolution = asked.resolution};
-  if (asked.plane == "ao_raw") request.then = "none";
+      .outputs = {asked.technique}, .only_outputs = {asked.plane}, .only = asked.mask, .resolution = asked.resolution};
+  if (asked.plane == "ao_raw") request.filter = "none";
   request.settings = asked.settings;
   const bool has_radius = asked.plane == "ao" || has_parameter(find_technique(asked.technique), "radius");
   if (has_radius) request.settings.emplace_back("radius", std::to_string(s.radius));

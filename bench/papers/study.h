@@ -28,7 +28,7 @@ struct Asked {
   Settings settings;
   int resolution = 1;
   std::string plane = "ao_raw";
-  std::string mask = {};  ///< as in `PlanRequest::mask`
+  std::string mask = {};  ///< as in `PlanRequest::only`
   bool operator==(const Asked&) const = default;
 };
 

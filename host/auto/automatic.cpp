@@ -92,7 +92,7 @@ PlanRequest mask_request(const Technique& technique, const EffectProbe& probe, c
   PlanRequest request{.outputs = {mask}, .as_cells = true, .resolution = resolution};
   if (technique.views == 1) {
     PlanRequest restricted = request_everywhere(technique, probe.asked);
-    restricted.mask = mask;
+    restricted.only = mask;
     const Plan whole = make_plan(restricted, probe.available, probe.holds);
     const ParameterValues& values = values_of(whole, find_technique(mask));
     for (const Parameter& p : values.table()) request.settings.emplace_back(mask + "." + p.name, values.text(p.name));
@@ -204,7 +204,7 @@ PlanRequest refined_request(const EffectChoice& refinement, const Technique& ref
   const Technique& technique = *refinement.technique;
   PlanRequest request = request_everywhere(technique, probe.asked);
   if (technique.views == 2 || refinement.is_everywhere || probe.asked.resolution > 1) return request;
-  request.mask = technique.effect.mask;
+  request.only = technique.effect.mask;
   request.elsewhere = refined.name;
   for (const auto& setting : probe.asked.settings) {
     if (is_of(setting.first, refined.name)) request.settings.push_back(setting);
@@ -235,12 +235,12 @@ PlanRequest request_everywhere(const Technique& technique, const PlanRequest& as
 PlanRequest asked_of_effect(const Technique& technique, const PlanRequest& asked,
                             const std::vector<std::string>& available, const std::string& holds) {
   PlanRequest known = asked;
-  if (technique.then.empty() || !filters(known.then, technique)) known.then.clear();
+  if (technique.then.empty() || !filters(known.filter, technique)) known.filter.clear();
   if (technique.extras.empty()) known.with.clear();
   if (!can_adapt(technique)) known.adaptive.clear();
   PlanRequest request = known;
   request.outputs = {technique.name};
-  request.mask = technique.effect.mask;
+  request.only = technique.effect.mask;
   known.settings = with_known_settings(technique, request, available, holds).settings;
   return known;
 }
@@ -281,7 +281,7 @@ std::vector<Plan> plans_of_effect(const Technique& technique, const PlanRequest&
                                   const std::vector<std::string>& available, const std::string& holds) {
   check_settings(refinements_of(technique), asked);
   PlanRequest request = request_everywhere(technique, asked);
-  request.mask = technique.effect.mask;
+  request.only = technique.effect.mask;
   std::vector<Plan> plans = {make_plan(request, available, holds)};
   for (const Technique* refinement : refinements_of(technique)) {
     try {
@@ -298,7 +298,7 @@ std::vector<Plan> plans_of_effect(const Technique& technique, const PlanRequest&
 Decision decide(const Technique& technique, const EffectProbe& probe) {
   Decision decision{.effect = choose(technique, probe)};
   decision.everywhere = decision.request = request_everywhere(technique, probe.asked);
-  if (!decision.effect.is_everywhere) decision.request.mask = technique.effect.mask;
+  if (!decision.effect.is_everywhere) decision.request.only = technique.effect.mask;
   const Technique* chosen = nullptr;
   for (const Technique* t : refinements_of(technique)) {
     // An effect that nothing visible calls for may still be needed for hidden layers, but not for agreement of two views.
@@ -319,7 +319,7 @@ Decision decide(const Technique& technique, const EffectProbe& probe) {
 
 Computed compute(Decision& decision, const EffectProbe& probe, MaskUse use) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  const bool has_mask = !decision.request.mask.empty();
+  const bool has_mask = !decision.request.only.empty();
   Computed done{.ms_masked = unknown, .ms_everywhere = unknown};
   if (!has_mask || use == MaskUse::never) {
     done.result = run(make_plan(has_mask ? decision.everywhere : decision.request, probe.available, probe.holds),

@@ -133,7 +133,7 @@ class Spending {
 
   void try_mask(BudgetedEffect& effect, const EffectOption& option) {
     PlanRequest request = option.request;
-    request.mask = effect.mask;
+    request.only = effect.mask;
     request.elsewhere = effect.elsewhere;
     Plan plan = make_plan(request, means_.available, means_.holds);
     RunResult result = timed(plan, means_.frame, means_);

@@ -136,8 +136,8 @@ Candidates candidates_for(PlanRequest asked, const FrameFacts& facts, const Comp
   // Colour holds all effects: nothing is to be computed.
   if (found.possible.empty()) return found;
   const bool has_filter = std::any_of(found.possible.begin(), found.possible.end(),
-                                      [&](const Candidate& candidate) { return candidate.asked.then == asked.then; });
-  if (!has_filter) found.possible.front().asked.then = asked.then;  // its plan reports the error
+                                      [&](const Candidate& candidate) { return candidate.asked.filter == asked.filter; });
+  if (!has_filter) found.possible.front().asked.filter = asked.filter;  // its plan reports the error
   for (const auto& setting : asked.settings) {
     const bool is_known = std::any_of(found.possible.begin(), found.possible.end(), [&](const Candidate& candidate) {
       const auto& settings = candidate.asked.settings;

@@ -40,7 +40,7 @@ BudgetedEffect budgeted(const Candidate& candidate, const Outcome& outcome, bool
   effect.technique = candidate.technique;
   const PlanRequest& request = outcome.decision.request;
   if (with_mask) {
-    effect.mask = request.mask;
+    effect.mask = request.only;
     effect.elsewhere = request.elsewhere;
   }
   effect.options = options_of(find_technique(request.outputs.front()), probe);

@@ -84,7 +84,7 @@ std::vector<Tuning> group_candidates(const Tuning& best, bool is_cpu) {
 
 Measurement measure_tuning(const std::string& technique, Device& device, const std::function<void()>& goes_on) {
   Frame frame = stress::shoot(stress::perspective(timed_width, timed_height), stress::room());
-  const Plan plan = stress::plan_for(PlanRequest{.outputs = {technique}, .then = "none"}, frame);
+  const Plan plan = stress::plan_for(PlanRequest{.outputs = {technique}, .filter = "none"}, frame);
   const Tuning usual = device.info().usual;
   const std::vector<Candidate> by_lanes = times_of(lane_candidates(usual), plan, frame, device, goes_on);
   const Tuning best_lanes = best_of(by_lanes).tuning;

@@ -28,8 +28,8 @@ SelfTest test_of(const Json& row) {
   SelfTest test{.kind = row.at("kind")};
   test.request.outputs = {row.at("technique").get<std::string>()};
   test.request.preset = row.value("preset", "");
-  test.request.then = row.value("filter", "");
-  test.request.mask = row.value("only", "");
+  test.request.filter = row.value("filter", "");
+  test.request.only = row.value("only", "");
   test.request.adaptive = row.value("adaptive", "");
   test.request.resolution = row.value("resolution", 1);
   test.request.temporal = row.value("temporal", false);

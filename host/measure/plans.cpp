@@ -72,9 +72,8 @@ bool any_makes_first_view_only(const std::vector<const Technique*>& techniques) 
 
 const Technique* over_all_layers(const Technique& technique) {
   if (contains(technique.reads, "peel")) return &technique;
-  const Variant is = variant_of(technique);
-  return is.both_eyes ? nullptr
-                      : find_variant({is.of, Layers::peeled});  // "sd-hbao+", too, is "dp-hbao+" over all layers
+  const Variant is = variant_of(technique);  // "sd-hbao+", too, is "dp-hbao+" over all layers
+  return is.both_eyes ? nullptr : find_variant({is.of, Layers::peeled});
 }
 
 Settings settings_over_other_layers(const Settings& settings, const Technique& from, const Technique& to) {
@@ -100,11 +99,11 @@ std::vector<std::string> planes_of(const Frame& frame) {
 
 Plan whole_plan(const Variation& variation, const std::vector<std::string>& available, const std::string& holds) {
   PlanRequest request = request_for(variation);
-  request.only = {measured_plane(*variation.technique)};
+  request.only_outputs = {measured_plane(*variation.technique)};
   if (!variation.temporal) return make_plan(request, available, holds);
   check_temporal(request);
   for (const std::string& plane : planes_for_history()) {
-    if (contains(outputs_of(*variation.technique), plane)) add_new(request.only, plane);
+    if (contains(outputs_of(*variation.technique), plane)) add_new(request.only_outputs, plane);
   }
   std::vector<std::string> with_history = available;
   with_history.insert(with_history.end(), history_planes().begin(), history_planes().end());
@@ -114,8 +113,8 @@ Plan whole_plan(const Variation& variation, const std::vector<std::string>& avai
 Plan unfiltered_plan(const Variation& variation, const std::vector<std::string>& available, const std::string& holds,
                      const Settings& more) {
   PlanRequest request = request_for(variation);
-  request.only = {own_plane(*variation.technique)};
-  request.then = "none";
+  request.only_outputs = {own_plane(*variation.technique)};
+  request.filter = "none";
   request.settings.insert(request.settings.end(), more.begin(), more.end());
   return make_plan(request, available, holds);
 }

@@ -140,7 +140,7 @@ Plan make_plan(const PlanRequest& given, const std::vector<std::string>& availab
   Wanted wanted = wanted_by(request, available);
   const Techniques asked_for = wanted.makers;
   const Technique* elsewhere = want_elsewhere(request, wanted);
-  const std::string mask = want_mask(wanted, request.mask, available);
+  const std::string mask = want_mask(wanted, request.only, available);
   const bool is_reduced = request.resolution > 1;
   std::vector<std::string> also = is_reduced ? resampling().reads : std::vector<std::string>();
   if (elsewhere) {
@@ -182,7 +182,8 @@ Plan make_plan(const PlanRequest& given, const std::vector<std::string>& availab
   if (!mask.empty())
     restrict_to_mask(plan, elsewhere ? Techniques{asked_for.front(), elsewhere} : asked_for, elsewhere);
   if (is_adaptive(request)) adapt(plan, without_maker(asked_for, mask), request.adaptive, values.back());
-  if (accumulates_after) accumulate(plan, *asked_for.front(), values.back(), asks_for_frames || given.only.empty());
+  if (accumulates_after)
+    accumulate(plan, *asked_for.front(), values.back(), asks_for_frames || given.only_outputs.empty());
   if (request.as_cells) put_out_cells(plan);
   leave_out_unread(plan, walk.order);
   plan.skipped = walk.skipped;

@@ -190,7 +190,7 @@ void check_temporal(const PlanRequest& request) {
   if (!request.adaptive.empty() && request.adaptive != "none")
     throw UsageError("accumulation over time ({}, {}): each pixel gets as many samples; leave out {}",
                      option("temporal"), option("history"), option("adaptive"));
-  if (!request.mask.empty() && accumulated_of(technique))
+  if (!request.only.empty() && accumulated_of(technique))
     throw UsageError("accumulation over time ({}, {}): goes on from whole images; leave out {}", option("temporal"),
                      option("history"), option("only"));
   check_no_ao_beside(request, technique);
@@ -198,7 +198,7 @@ void check_temporal(const PlanRequest& request) {
 
 bool takes_frames(PlanRequest& request) {
   if (!contains(outputs_of(find_technique(request.outputs.front())), "frames"))
-    return std::erase(request.only, "frames") > 0;
+    return std::erase(request.only_outputs, "frames") > 0;
   return false;
 }
 

@@ -161,23 +161,23 @@ void want_extra(Wanted& wanted, const std::string& plane) {
 Wanted wanted_by(const PlanRequest& request, const std::vector<std::string>& available) {
   Wanted wanted;
   for (const std::string& output : request.outputs) {
-    if (const Technique* technique = technique_named(output)) add_makers(wanted, *technique, request.then);
+    if (const Technique* technique = technique_named(output)) add_makers(wanted, *technique, request.filter);
   }
   for (const std::string& output : request.outputs) {
     if (const Technique* technique = technique_named(output))
-      want_outputs(wanted, *technique, request.then);
+      want_outputs(wanted, *technique, request.filter);
     else
-      want_plane(wanted, output, available, request.then);
+      want_plane(wanted, output, available, request.filter);
   }
   for (const std::string& plane : request.with) want_extra(wanted, plane);
-  for (const std::string& plane : request.only) {
+  for (const std::string& plane : request.only_outputs) {
     if (contains(wanted.outputs, plane) || is_extra(wanted, plane)) continue;
     throw UsageError("{}: no output '{}'{}; there are {}", request.outputs.front(), plane,
                      suggestion(plane, wanted.outputs), enumerate(wanted.outputs));
   }
-  if (!request.only.empty()) {
+  if (!request.only_outputs.empty()) {
     wanted.outputs.clear();
-    for (const std::string& plane : request.only) add_new(wanted.outputs, plane);
+    for (const std::string& plane : request.only_outputs) add_new(wanted.outputs, plane);
     for (const std::string& plane : request.with) add_new(wanted.outputs, plane);
   }
   return wanted;
@@ -206,7 +206,7 @@ bool is_adaptive(const PlanRequest& request) { return !request.adaptive.empty() 
 const Technique* want_elsewhere(const PlanRequest& request, const Wanted& wanted) {
   if (request.elsewhere.empty()) return nullptr;
   const std::string& name = request.elsewhere;
-  if (request.mask.empty())
+  if (request.only.empty())
     throw UsageError("{}: needs a mask; add {}", option("elsewhere", name), option("only", "MASK"));
   if (request.resolution > 1)
     throw UsageError("{}: works at full resolution; leave out {}", option("elsewhere", name), option("resolution"));

@@ -66,12 +66,12 @@ PlanRequest plan_request(const py::dict& words) {
     take_choice(words, "eyes", eyes_words, variant.both_eyes);
     request.outputs = {variant_name(taken<std::string>(words, "technique"), variant)};
   }
-  request.only = names(words, "outputs");
+  request.only_outputs = names(words, "outputs");
   request.with = names(words, "extras");
-  request.then = text(words, "filter");
+  request.filter = text(words, "filter");
   request.preset = text(words, "preset");
   request.settings = taken<Settings>(words, "settings");
-  request.mask = text(words, "only");
+  request.only = text(words, "only");
   request.elsewhere = text(words, "elsewhere");
   request.adaptive = text(words, "adaptive");
   take_choice(words, "resolution", resolution_words, request.resolution);

@@ -67,9 +67,9 @@ class SequenceRun {
       for (size_t i = 0; i < numbers.size(); ++i) turns_.push_back({.frame = i, .begins = true});
     } else {
       turns_ = turns_of(numbers, 0, std::vector<bool>(numbers.size(), false));
-      if (!request_.only.empty()) {
-        written_ = request_.only;
-        request_.only = with_planes_for_history(written_, request_.outputs.front());
+      if (!request_.only_outputs.empty()) {
+        written_ = request_.only_outputs;
+        request_.only_outputs = with_planes_for_history(written_, request_.outputs.front());
       }
     }
   }

@@ -89,15 +89,15 @@ std::optional<double> missed_share(PlanRequest request, const Plan& plan, Frame&
   const Tiles tiles(frame);
   const TilesInFrame added(frame, tiles);
   std::erase_if(request.settings, [&](const auto& setting) { return is_for_alone(*maker, plan, setting.first); });
-  request.mask = tiles_plane;
-  request.only = {plan.outputs.front()};
+  request.only = tiles_plane;
+  request.only_outputs = {plan.outputs.front()};
   request.with = {};
   options.repeat = 1;
   options.progress = {};
   const Frame whole = run(make_plan(request, common_planes(frame), "the frame"), frame, device, options).frame;
   double missed = 0, pixels = 0;
   for (size_t v = 0; v < frame.views.size(); ++v) {
-    const Plane &with = *whole.views[v].find(request.only.front()), &without = *result.views[v].find(with.name);
+    const Plane &with = *whole.views[v].find(request.only_outputs.front()), &without = *result.views[v].find(with.name);
     for (int y = 0; y < frame.height(); ++y) {
       for (int x = 0; x < frame.width(); ++x) {
         if (!tiles.has(x, y)) continue;

@@ -233,7 +233,7 @@ TEST(Evidence, IsolatedPixelsGetMoreSlices) {
   const Settings one = {{"edge_factor", "1"}}, many = {{"edge_factor", "16"}};
   const auto with = [&](const Settings& settings, const std::string& preset) {
     return made(
-        {.outputs = {"evidence"}, .then = "none", .preset = preset, .settings = settings, .radius = scene.ao_radius},
+        {.outputs = {"evidence"}, .filter = "none", .preset = preset, .settings = settings, .radius = scene.ao_radius},
         {"depth", "normal"}, frame);
   };
   const Frame few = with(one, "medium"), more = with(many, "medium"), converged = with(one, "ultra");

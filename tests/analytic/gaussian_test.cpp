@@ -161,7 +161,7 @@ TEST(Gaussian, FollowsAnEstimateWhereItIsAskedFor) {
   const auto passes_with = [](const std::string& filter) {
     std::vector<std::string> labels;
     const std::vector<std::string> available = {"depth", "normal"};
-    for (const PlannedPass& pass : make_plan({.outputs = {"hbao+"}, .then = filter}, available, "").passes)
+    for (const PlannedPass& pass : make_plan({.outputs = {"hbao+"}, .filter = filter}, available, "").passes)
       labels.push_back(pass.label());
     return labels;
   };

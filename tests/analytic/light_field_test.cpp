@@ -598,7 +598,7 @@ TEST(LightFieldReuse, InsideAMaskNoBitChanges) {
     for (const char* reuse : {"off", "on"}) {
       const auto with = [&](const std::string& mask) {
         const Settings settings = {{"radius", "0.6"}, {"reuse", reuse}, {"key_views", "2"}};
-        return run(make_plan({.outputs = {technique}, .then = "none", .settings = settings, .mask = mask},
+        return run(make_plan({.outputs = {technique}, .filter = "none", .settings = settings, .only = mask},
                              plane_names(frame), "the frame has not"),
                    frame, device(), {.math = Math::precise});
       };
@@ -645,7 +645,7 @@ TEST(LightFieldReuse, AtHalfResolution) {
       with_other_normals(shoot_pair(eyes, room(), [](const dvec3&) { return 1.0; }), key_view_roles(2, 2));
   const auto with = [&](const char* reuse) {
     const Plan plan = make_plan({.outputs = {"lightfield-hbao+"},
-                                 .then = "none",
+                                 .filter = "none",
                                  .settings = {{"reuse", reuse}, {"key_views", "2"}},
                                  .resolution = 2},
                                 plane_names(frame), "the frame has not");

@@ -38,8 +38,9 @@ double open_beside(double x) {
 double mean_error(const std::string& technique, const Settings& settings) {
   const Shot shot = perspective(440, 360);
   const Frame frame = shoot(shot, strip_before_wall());
-  const Plan plan = make_plan({.outputs = {technique}, .only = {"ao_raw"}, .then = "none", .settings = settings},
-                              {"depth", "normal"}, "");
+  const Plan plan =
+      make_plan({.outputs = {technique}, .only_outputs = {"ao_raw"}, .filter = "none", .settings = settings},
+                {"depth", "normal"}, "");
   const Frame out = run(plan, frame, device(), {.math = Math::precise}).frame;
   double sum = 0;
   int count = 0;

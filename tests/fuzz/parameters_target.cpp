@@ -20,13 +20,13 @@ void ask(PlanRequest& request, const std::string& name, const std::string& value
   if (name == "--preset")
     request.preset = value;
   else if (name == "--then")
-    request.then = value;
+    request.filter = value;
   else if (name == "--with")
     request.with.push_back(value);
   else if (name == "--outputs")
-    request.only.push_back(value);
+    request.only_outputs.push_back(value);
   else if (name == "--only")
-    request.mask = value;
+    request.only = value;
   else if (name == "--elsewhere")
     request.elsewhere = value;
   else if (name == "--adaptive")

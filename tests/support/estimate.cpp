@@ -13,7 +13,7 @@ Settings joined(Settings settings, const Settings& more) {
 Plan plan_of(const std::string& technique, const Frame& frame, const Settings& settings,
              const std::vector<std::string>& only, int resolution) {
   return make_plan(
-      {.outputs = {technique}, .only = only, .then = "none", .settings = settings, .resolution = resolution},
+      {.outputs = {technique}, .only_outputs = only, .filter = "none", .settings = settings, .resolution = resolution},
       plane_names(frame), "this frame");
 }
 

@@ -101,7 +101,7 @@ Runs masked_runs(const Technique& technique, const Coverage& coverage) {
                     {.outputs = {technique.name},
                      .with = technique.extras,
                      .settings = few_samples(technique),
-                     .mask = "mask",
+                     .only = "mask",
                      .resolution = resolution});
   }
   return runs;
@@ -170,9 +170,9 @@ Runs runs_of_plans(const Coverage& coverage) {
   Frame frame = shoot(shot, room());
   plane_of(frame, "mask").channels[0].at(coverage.width / 2, coverage.height / 2) = 1;
   runs.push_back(
-      planned("masked, elsewhere alchemy", frame, {.outputs = {"ssao"}, .mask = "mask", .elsewhere = "alchemy"}));
+      planned("masked, elsewhere alchemy", frame, {.outputs = {"ssao"}, .only = "mask", .elsewhere = "alchemy"}));
   runs.push_back(planned("by tiles", frame, {.outputs = {"ssao"}, .preset = "medium", .adaptive = "low"}));
-  runs.push_back(planned("masked, by tiles", frame, {.outputs = {"ssao"}, .mask = "mask", .adaptive = "low"}));
+  runs.push_back(planned("masked, by tiles", frame, {.outputs = {"ssao"}, .only = "mask", .adaptive = "low"}));
   for (const bool with_motion : {true, false})
     runs.push_back(planned(with_motion ? "over time, with motion" : "over time",
                            frame_over_time(find_technique("ssao"), shot, with_motion),

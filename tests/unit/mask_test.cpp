@@ -43,26 +43,26 @@ std::string wanted_by(const Plan& plan, const std::string& label) {
 }
 
 TEST(Mask, TheCellsOfAMaskDoWhereNobodyAsksForTheMaskItself) {
-  const Plan plan = plan_of({.outputs = {"hbao+"}, .mask = "corner-mask"});
+  const Plan plan = plan_of({.outputs = {"hbao+"}, .only = "corner-mask"});
   EXPECT_EQ(labels_of(plan), (Names{"corner-mask/subsample", "corner-mask/find", "corner-mask/grow", "mask/bits",
                                     "mask/grown", "hbao+/estimate", "bilateral/horizontal", "bilateral/vertical"}));
-  const Plan with_mask = plan_of({.outputs = {"hbao+", "corner-mask"}, .mask = "corner-mask"});
+  const Plan with_mask = plan_of({.outputs = {"hbao+", "corner-mask"}, .only = "corner-mask"});
   EXPECT_NE(labels_of(with_mask), labels_of(plan));
   EXPECT_EQ(with_mask.outputs, (Names{"ao", "ao_raw", "mask"}));
 }
 
 TEST(Mask, TheEstimateCoversWhatFiltersReadAndTheLastFilterTheMask) {
-  const Plan plan = plan_of({.outputs = {"gtao"}, .mask = "mask"}, {"depth", "normal", "mask"});
+  const Plan plan = plan_of({.outputs = {"gtao"}, .only = "mask"}, {"depth", "normal", "mask"});
   EXPECT_EQ(wanted_by(plan, "gtao/estimate"), "wanted.grown");
   EXPECT_EQ(wanted_by(plan, "bilateral/horizontal"), "wanted.grown");
   EXPECT_EQ(wanted_by(plan, "bilateral/vertical"), "wanted");
-  const Plan unfiltered = plan_of({.outputs = {"gtao"}, .then = "none", .mask = "mask"}, {"depth", "normal", "mask"});
+  const Plan unfiltered = plan_of({.outputs = {"gtao"}, .filter = "none", .only = "mask"}, {"depth", "normal", "mask"});
   EXPECT_EQ(labels_of(unfiltered), (Names{"mask/bits", "gtao/estimate"}));
   EXPECT_EQ(wanted_by(unfiltered, "gtao/estimate"), "wanted");
 }
 
 TEST(Mask, AMaskIsMadeOfAllPixelsAtEveryResolution) {
-  const Plan plan = plan_of({.outputs = {"gtao", "corner-mask"}, .mask = "corner-mask", .resolution = 2});
+  const Plan plan = plan_of({.outputs = {"gtao", "corner-mask"}, .only = "corner-mask", .resolution = 2});
   size_t made = 0, used = 0;
   for (size_t i = 0; i < plan.passes.size(); ++i) {
     if (plan.passes[i].label() == "corner-mask/spread") made = i;
@@ -74,17 +74,17 @@ TEST(Mask, AMaskIsMadeOfAllPixelsAtEveryResolution) {
 }
 
 TEST(Mask, AMaskIsMadeForTheRadiusOfWhatItRestricts) {
-  const Plan plan = plan_of({.outputs = {"ssao"}, .settings = {{"ssao.radius", "0.7"}}, .mask = "corner-mask"});
+  const Plan plan = plan_of({.outputs = {"ssao"}, .settings = {{"ssao.radius", "0.7"}}, .only = "corner-mask"});
   ASSERT_EQ(plan.passes.front().technique->name, "corner-mask");
   EXPECT_EQ(plan.passes.front().values.number("radius"), 0.7f);
   EXPECT_EQ(plan.passes.front().values.number("range"), 2);
-  EXPECT_EQ(plan_of({.outputs = {"gtao"}, .mask = "corner-mask"}).passes.front().values.number("range"), 0);
+  EXPECT_EQ(plan_of({.outputs = {"gtao"}, .only = "corner-mask"}).passes.front().values.number("range"), 0);
 }
 
 TEST(Mask, WhatTheFileHoldsIsTakenAndATechniqueIsRun) {
   const Names available = {"depth", "normal", "mask"};
-  EXPECT_EQ(plan_of({.outputs = {"gtao"}, .mask = "mask"}, available).inputs, (Names{"mask", "depth", "normal"}));
-  EXPECT_EQ(labels_of(plan_of({.outputs = {"gtao"}, .mask = "corner-mask"}, available)).front(),
+  EXPECT_EQ(plan_of({.outputs = {"gtao"}, .only = "mask"}, available).inputs, (Names{"mask", "depth", "normal"}));
+  EXPECT_EQ(labels_of(plan_of({.outputs = {"gtao"}, .only = "corner-mask"}, available)).front(),
             "corner-mask/subsample");
 }
 
@@ -93,23 +93,23 @@ TEST(Mask, WhatCannotBeIsSaidInOneLine) {
     return message_of([&] { plan_of(request, available); });
   };
   EXPECT_EQ(
-      message({.outputs = {"gtao"}, .mask = "corner-mast"}),
+      message({.outputs = {"gtao"}, .only = "corner-mast"}),
       "--only corner-mast: is neither a plane at hand nor a technique that makes one (did you mean 'corner-mask'?); "
       "--plane mask=CHANNEL takes any channel of the file as 'mask'");
-  EXPECT_EQ(message({.outputs = {"gtao"}, .mask = "normal"}),
+  EXPECT_EQ(message({.outputs = {"gtao"}, .only = "normal"}),
             "--only normal: 'normal' has several values per pixel; corner-mask makes a mask");
-  EXPECT_EQ(message({.outputs = {"normals"}, .mask = "depth"}),
+  EXPECT_EQ(message({.outputs = {"normals"}, .only = "depth"}),
             "--only: normals has no pass that a mask can restrict; leave --only out");
-  EXPECT_EQ(message({.outputs = {"stereo-ao"}, .mask = "corner-mask"}),
+  EXPECT_EQ(message({.outputs = {"stereo-ao"}, .only = "corner-mask"}),
             "--only: restricts techniques that read one view, and stereo-ao reads two; leave --only out");
   EXPECT_EQ(
-      message({.outputs = {"reflection-mask"}, .mask = "corner-mask"}, {"depth", "normal", "roughness", "reflectance"}),
+      message({.outputs = {"reflection-mask"}, .only = "corner-mask"}, {"depth", "normal", "roughness", "reflectance"}),
       "--only: reflection-mask makes 'mask' itself and cannot be restricted by it; leave --only out");
   // The mask and what it restricts make planes of the same names, one after the other.
-  EXPECT_NO_THROW(plan_of({.outputs = {"sssr"}, .mask = "reflection-mask"},
+  EXPECT_NO_THROW(plan_of({.outputs = {"sssr"}, .only = "reflection-mask"},
                           {"depth", "normal", "color", "roughness", "reflectance"}));
   for (const char* mask : {"ao", "ao_raw"}) {
-    EXPECT_EQ(message({.outputs = {"gtao"}, .mask = mask}),
+    EXPECT_EQ(message({.outputs = {"gtao"}, .only = mask}),
               fmt::format("--only: gtao makes '{}' itself and cannot be restricted by it; leave --only out", mask));
   }
 }
@@ -140,7 +140,7 @@ TEST(Mask, GivesTheSameBitsAtEveryLaneWidth) {
     invent_for_extras(technique, frame);
     plane_of(frame, "mask").channels[0].at(32, 4) = 1;
     const Plan plan =
-        make_plan({.outputs = {name}, .with = technique.extras, .settings = few_samples(technique), .mask = "mask"},
+        make_plan({.outputs = {name}, .with = technique.extras, .settings = few_samples(technique), .only = "mask"},
                   plane_names(frame), "the frame has not");
     const auto with_lanes = [&](int lanes) {
       return std::move(run(plan, frame, device(), {.math = Math::precise, .lanes = lanes}).frame);
@@ -169,9 +169,9 @@ class Masked : public ::testing::TestWithParam<Case> {
     PlanRequest request{.outputs = {c.technique->name},
                         // Around the mask, what a filter of the technique reads is computed too.
                         .with = filter == "none" ? unfiltered_extras(*c.technique) : c.technique->extras,
-                        .then = filter,
+                        .filter = filter,
                         .settings = few_samples(*c.technique),
-                        .mask = mask,
+                        .only = mask,
                         .resolution = c.resolution};
     return run(make_plan(request, plane_names(frame), "the frame has not"), frame, device(),
                {.math = Math::precise, .lanes = c.lanes});

@@ -45,7 +45,7 @@ TEST_F(Options, OfAPlanAreNamedInItsErrors) {
   set_caller(Caller::python);
   EXPECT_EQ(refused(), "elsewhere='ssao': needs a mask; add only=MASK");
   set_caller(Caller::program);
-  EXPECT_EQ(refused(), "PlanRequest::elsewhere = ssao: needs a mask; add PlanRequest::mask = MASK");
+  EXPECT_EQ(refused(), "PlanRequest::elsewhere = ssao: needs a mask; add PlanRequest::only = MASK");
 }
 
 }  // namespace

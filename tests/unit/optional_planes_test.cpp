@@ -42,7 +42,7 @@ TEST(OptionalPlanes, AreSubsampledLikeOthers) {
 }
 
 TEST(OptionalPlanes, AreReadByTheTechniqueElsewhereToo) {
-  const Plan plan = plan_of({.outputs = {"gtao"}, .mask = "mask", .elsewhere = "evidence"},
+  const Plan plan = plan_of({.outputs = {"gtao"}, .only = "mask", .elsewhere = "evidence"},
                             {"depth", "normal", "mask", "back_depth"});
   EXPECT_NE(std::find(plan.inputs.begin(), plan.inputs.end(), "back_depth"), plan.inputs.end());
 }
@@ -53,9 +53,9 @@ TEST(OptionalPlanes, AreNotReadByRowsThatKnowTheLayers) {
 }
 
 TEST(ExtrasInTwoSteps, AreCompletedOnlyWhereTheyAreAskedFor) {
-  EXPECT_EQ(labels_of(plan_of({.outputs = {"evidence"}, .then = "none"}, {"depth", "normal"})),
+  EXPECT_EQ(labels_of(plan_of({.outputs = {"evidence"}, .filter = "none"}, {"depth", "normal"})),
             (Names{"evidence/estimate"}));
-  const Plan plan = plan_of({.outputs = {"evidence"}, .with = {"ao_error"}, .then = "none"}, {"depth", "normal"});
+  const Plan plan = plan_of({.outputs = {"evidence"}, .with = {"ao_error"}, .filter = "none"}, {"depth", "normal"});
   EXPECT_EQ(labels_of(plan), (Names{"evidence/estimate", "evidence/filter error"}));
   EXPECT_EQ(plan.outputs, (Names{"ao_raw", "ao_error"}));
 }
@@ -71,7 +71,7 @@ TEST(ExtrasForOthers, AreMadeWhereAnotherTechniqueReadsThem) {
 
 TEST(ExtrasForOthers, ComeFromTheTechniqueAskedFor) {
   const Plan plan =
-      plan_of({.outputs = {"gtao", "specular-occlusion"}, .then = "none"}, {"depth", "normal", "roughness"});
+      plan_of({.outputs = {"gtao", "specular-occlusion"}, .filter = "none"}, {"depth", "normal", "roughness"});
   EXPECT_EQ(labels_of(plan), (Names{"gtao/estimate", "specular-occlusion/rows", "specular-occlusion/columns"}));
 }
 

@@ -82,7 +82,7 @@ TEST(Resolution, WhatComesBackHasAKernel) {
 }
 
 TEST(Resolution, OnlyWhatIsReadIsSubsampledAndOnlyWhatIsPutOutComesBack) {
-  const Plan plan = plan_of({.outputs = {"hbao+"}, .only = {"ao_raw"}, .resolution = 2},
+  const Plan plan = plan_of({.outputs = {"hbao+"}, .only_outputs = {"ao_raw"}, .resolution = 2},
                             {"depth", "normal", "color", "peel.00", "ao_noise"});
   EXPECT_EQ(labels_of(plan), (Names{"resample/subsample depth", "resample/subsample normal", "hbao+/estimate",
                                     "resample/upsample ao_raw"}));
@@ -90,14 +90,14 @@ TEST(Resolution, OnlyWhatIsReadIsSubsampledAndOnlyWhatIsPutOutComesBack) {
 }
 
 TEST(Resolution, NormalsAreMadeOfAllPixelsBeforeTheyAreSubsampled) {
-  const Plan plan = plan_of({.outputs = {"hbao+"}, .then = "none", .resolution = 2}, {"depth"});
+  const Plan plan = plan_of({.outputs = {"hbao+"}, .filter = "none", .resolution = 2}, {"depth"});
   EXPECT_EQ(labels_of(plan), (Names{"normals/differences", "resample/subsample depth", "resample/subsample normal",
                                     "hbao+/estimate", "resample/upsample ao_raw"}));
   EXPECT_EQ(plan.passes[0].pass.scale, 1);
 }
 
 TEST(Resolution, EveryLayerOfAStackIsSubsampled) {
-  const Plan plan = plan_of({.outputs = {"dp-hbao+"}, .then = "none", .resolution = 4},
+  const Plan plan = plan_of({.outputs = {"dp-hbao+"}, .filter = "none", .resolution = 4},
                             {"depth", "normal", "peel.00", "peel.01", "peel.02"});
   const auto pass = std::find_if(plan.passes.begin(), plan.passes.end(),
                                  [](const PlannedPass& p) { return p.pass.name == "subsample peel"; });
@@ -107,8 +107,8 @@ TEST(Resolution, EveryLayerOfAStackIsSubsampled) {
 }
 
 TEST(Resolution, ExtrasComeBackAsWell) {
-  const Names labels =
-      labels_of(plan_of({.outputs = {"gtao"}, .only = {"bent_normal"}, .with = {"bent_normal"}, .resolution = 2}));
+  const Names labels = labels_of(
+      plan_of({.outputs = {"gtao"}, .only_outputs = {"bent_normal"}, .with = {"bent_normal"}, .resolution = 2}));
   EXPECT_EQ(labels, (Names{"resample/subsample depth", "resample/subsample normal", "gtao/estimate",
                            "resample/upsample bent_normal"}));
 }
@@ -147,7 +147,7 @@ TEST(Resolution, WhatTwoViewsAgreeOnIsUpsampledFromBoth) {
   const Plan light = plan_of({.outputs = {"stereo-indirect"}, .resolution = 2}, {"depth", "normal", "color"});
   EXPECT_TRUE(looks_at_other_view(upsampling_of(light, "indirect")));
   EXPECT_FALSE(looks_at_other_view(upsampling_of(light, "indirect_raw")));
-  const PlanRequest filtered{.outputs = {"gtao"}, .then = "stereo-bilateral", .resolution = 4};
+  const PlanRequest filtered{.outputs = {"gtao"}, .filter = "stereo-bilateral", .resolution = 4};
   EXPECT_TRUE(looks_at_other_view(upsampling_of(plan_of(filtered), "ao"))) << "as --filter";
   const Pass pass = upsampling_of(plan_of(filtered), "ao");
   Names others;

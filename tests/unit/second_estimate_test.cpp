@@ -72,7 +72,7 @@ PlanRequest request_for(const Case& c, const std::string& preset, const std::str
                         const std::string& least_range = "", const std::string& filter = "none") {
   PlanRequest request{.outputs = {c.technique->name},
                       .with = unfiltered_extras(*c.technique),
-                      .then = filter,
+                      .filter = filter,
                       .preset = preset,
                       .settings = {{"radius", "0.3"}},
                       .adaptive = adaptive};
@@ -142,9 +142,9 @@ TEST(AdaptivePlan, WhatAMaskLeavesOutStaysOpen) {
   Frame frame = shoot(perspective(151, 90), room());
   Channel& mask = plane_of(frame, "mask").channels[0];
   for (int y = 20; y < 60; ++y) std::fill_n(mask.row(y) + 50, 60, 1.0f);
-  PlanRequest request{.outputs = {"gtao"}, .preset = "high", .mask = "mask", .adaptive = "low"};
+  PlanRequest request{.outputs = {"gtao"}, .preset = "high", .only = "mask", .adaptive = "low"};
   const RunResult masked = result_of(frame, request);
-  request.mask = "";
+  request.only = "";
   const RunResult whole = result_of(frame, request);
   EXPECT_GT(masked.skipped_share, 0.2);
   for (int y = 0; y < frame.height(); ++y) {
@@ -163,7 +163,7 @@ TEST(AdaptivePlan, TheBasePassIsMadeOfTheTechniquesOwn) {
 }
 
 TEST(AdaptivePlan, TheBasePassDoesWithoutAFilterWhereThePlanDoes) {
-  const Plan plan = plan_of({.outputs = {"gtao"}, .only = {"ao_raw"}, .preset = "ultra", .adaptive = "medium"});
+  const Plan plan = plan_of({.outputs = {"gtao"}, .only_outputs = {"ao_raw"}, .preset = "ultra", .adaptive = "medium"});
   EXPECT_EQ(labels_of(plan), (Names{"resample/subsample depth", "resample/subsample normal", "gtao/estimate",
                                     "adaptive/tiles", "mask/bits", "gtao/estimate", "gtao/estimate of the rest"}));
   EXPECT_EQ(plan.outputs, Names{"ao_raw"});
@@ -211,8 +211,8 @@ TEST(Elsewhere, EachRowOfSixteenHasTheBitsOfOneTechnique) {
       return result_of(frame,
                        {.outputs = {technique},
                         .with = {"bent_normal", "cone"},
-                        .then = "none",
-                        .mask = elsewhere.empty() ? "" : "mask",
+                        .filter = "none",
+                        .only = elsewhere.empty() ? "" : "mask",
                         .elsewhere = elsewhere},
                        lanes);
     };
@@ -232,7 +232,7 @@ TEST(Elsewhere, TheFilterCoversTheImage) {
   for (int y = 0; y < frame.height(); ++y)
     std::fill_n(plane_of(frame, "everything").channels[0].row(y), frame.width(), 1.0f);
   const auto frame_of = [&](const std::string& technique, const std::string& mask, const std::string& elsewhere) {
-    return std::move(result_of(frame, {.outputs = {technique}, .mask = mask, .elsewhere = elsewhere}).frame);
+    return std::move(result_of(frame, {.outputs = {technique}, .only = mask, .elsewhere = elsewhere}).frame);
   };
   EXPECT_TRUE(same_bits(frame_of("bitmask", "everything", "gtao"), frame_of("bitmask", "", "")));
   EXPECT_TRUE(same_bits(frame_of("bitmask", "nothing", "gtao"), frame_of("gtao", "", "")));
@@ -244,8 +244,8 @@ TEST(Elsewhere, AnExtraThatIsFilteredChangesNoBitOfTheEstimates) {
   invent_plane(frame, "stochastic");
   invent_plane(frame, "back_depth");
   const auto frame_of = [&](const std::string& technique, const std::string& elsewhere, const Names& with) {
-    PlanRequest request{.outputs = {technique}, .with = with, .then = "none", .elsewhere = elsewhere};
-    if (!elsewhere.empty()) request.mask = "mask";
+    PlanRequest request{.outputs = {technique}, .with = with, .filter = "none", .elsewhere = elsewhere};
+    if (!elsewhere.empty()) request.only = "mask";
     if (technique == "sd-evidence") request.settings = {{"samples", "3"}};  // as many as are invented
     return std::move(result_of(frame, request).frame);
   };
@@ -264,10 +264,10 @@ TEST(Elsewhere, BothMaySortLayersOfTheirOwn) {
   invent_plane(frame, "stochastic");
   const auto frame_of = [&](const std::string& technique, const std::string& elsewhere) {
     PlanRequest request{.outputs = {technique},
-                        .then = "none",
+                        .filter = "none",
                         .settings = {{technique + ".samples", technique == "sd-gtao" ? "2" : "3"}}};
     if (!elsewhere.empty()) {
-      request.mask = "mask";
+      request.only = "mask";
       request.elsewhere = elsewhere;
       request.settings.emplace_back(elsewhere + ".samples", elsewhere == "sd-gtao" ? "2" : "3");
     }
@@ -284,7 +284,7 @@ TEST(Elsewhere, BothMaySortLayersOfTheirOwn) {
 TEST(Elsewhere, SettingsReachBothAndOneByItsName) {
   const Plan plan = plan_of({.outputs = {"bitmask"},
                              .settings = {{"radius", "0.7"}, {"gtao.steps", "5"}},
-                             .mask = "corner-mask",
+                             .only = "corner-mask",
                              .elsewhere = "gtao"});
   for (const PlannedPass& planned : plan.passes) {
     if (planned.technique->name == "bitmask" || planned.technique->name == "gtao") {
@@ -299,17 +299,17 @@ TEST(Elsewhere, WhatCannotBeIsSaidInOneLine) {
     return message_of([&] { plan_of(request, available); });
   };
   EXPECT_EQ(message({.outputs = {"bitmask"}, .elsewhere = "gtao"}), "--elsewhere gtao: needs a mask; add --only MASK");
-  EXPECT_EQ(message({.outputs = {"gtao"}, .mask = "mask", .elsewhere = "gtao"}),
+  EXPECT_EQ(message({.outputs = {"gtao"}, .only = "mask", .elsewhere = "gtao"}),
             "--elsewhere gtao: also runs inside the mask; leave out --only and --elsewhere");
-  EXPECT_NE(message({.outputs = {"gtao"}, .mask = "mask", .elsewhere = "gtoa"}).find("did you mean 'gtao'"),
+  EXPECT_NE(message({.outputs = {"gtao"}, .only = "mask", .elsewhere = "gtoa"}).find("did you mean 'gtao'"),
             std::string::npos);
-  EXPECT_EQ(message({.outputs = {"gtao"}, .mask = "mask", .elsewhere = "normals"}),
+  EXPECT_EQ(message({.outputs = {"gtao"}, .only = "mask", .elsewhere = "normals"}),
             "--elsewhere normals: makes normal, and gtao makes ao_raw; name an estimate of the same planes");
-  EXPECT_EQ(message({.outputs = {"gtao"}, .with = {"cone"}, .mask = "mask", .elsewhere = "hbao+"}),
+  EXPECT_EQ(message({.outputs = {"gtao"}, .with = {"cone"}, .only = "mask", .elsewhere = "hbao+"}),
             "--elsewhere hbao+: does not make 'cone', which is asked for; leave that out");
-  EXPECT_EQ(message({.outputs = {"gtao"}, .mask = "mask", .elsewhere = "ssao", .resolution = 2}),
+  EXPECT_EQ(message({.outputs = {"gtao"}, .only = "mask", .elsewhere = "ssao", .resolution = 2}),
             "--elsewhere ssao: works at full resolution; leave out --resolution");
-  EXPECT_EQ(message({.outputs = {"gtao"}, .mask = "mask", .elsewhere = "ssao", .adaptive = "low"}),
+  EXPECT_EQ(message({.outputs = {"gtao"}, .only = "mask", .elsewhere = "ssao", .adaptive = "low"}),
             "--elsewhere ssao: goes without --adaptive low; leave one of them out");
 }
 

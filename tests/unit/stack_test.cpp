@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 using Names = std::vector<std::string>;
 
 Plan plan_of(const std::string& output, const Names& available) {
-  return make_plan({.outputs = {output}, .then = "none"}, available, "frame.exr has only R, G, B");
+  return make_plan({.outputs = {output}, .filter = "none"}, available, "frame.exr has only R, G, B");
 }
 
 TEST(Stacks, Names) {

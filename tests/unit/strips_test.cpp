@@ -60,7 +60,7 @@ TEST(Strips, SayWhatTheWholeImageSays) {
   frame.views.front().planes["mask"] = plane_from("mask", width, height, mask);
   Device device;
   PlanRequest request = gtao(0.2);
-  request.mask = "mask";
+  request.only = "mask";
   request.elsewhere = "hbao+";
   const Plan plan = plan_on(request, frame).plan;
   const Strips strips = strips_for(plan, frame, device.info(), 4);

@@ -221,7 +221,7 @@ TEST(Temporal, OnlyPlansThatMakeAoOrReflectionsGoOn) {
   EXPECT_EQ(radius_of_accumulation({{"gtao.radius", "2"}}), "2");
   EXPECT_EQ(radius_of_accumulation({{"radius", "2"}, {"temporal.radius", "3"}}), "3");
   const auto outputs_for = [&](const std::vector<std::string>& only) {
-    return planned({.outputs = {"gtao"}, .only = only}).outputs;
+    return planned({.outputs = {"gtao"}, .only_outputs = only}).outputs;
   };
   using Names = std::vector<std::string>;
   EXPECT_EQ(outputs_for({"ao", "ao_raw"}), (Names{"ao", "ao_raw", "frames"})) << "a history needs both";

@@ -53,7 +53,7 @@ void TechniqueFlags::add_to(CLI::App& app, bool with_mask) {
   app.add_option("--preset", preset, "low, medium, high or ultra, where the technique has presets")
       ->type_name("NAME")
       ->group("Technique");
-  app.add_option("--filter", then, "the technique that follows, or none; default: what the technique names")
+  app.add_option("--filter", filter, "the technique that follows, or none; default: what the technique names")
       ->type_name("NAME")
       ->group("Technique");
   app.add_option("--with", with, "planes to make beside the usual ones: " + extras_in_words())
@@ -85,9 +85,9 @@ void TechniqueFlags::add_to(CLI::App& app, bool with_mask) {
 }
 
 PlanRequest TechniqueFlags::request(const std::vector<std::string>& outputs) const {
-  PlanRequest request{.outputs = outputs, .then = then, .preset = preset};
+  PlanRequest request{.outputs = outputs, .filter = filter, .preset = preset};
   request.settings = parse_settings(settings, "--set");
-  request.mask = only;
+  request.only = only;
   request.elsewhere = elsewhere;
   request.adaptive = adaptive;
   if (!with.empty()) request.with = split_list(with, "--with");

@@ -25,7 +25,7 @@ struct VariantFlags : VariantChoice {
 /// Techniques and their parameters.
 struct TechniqueFlags {
   std::vector<std::string> settings;
-  std::string preset, then, with, adaptive, only, elsewhere;
+  std::string preset, filter, with, adaptive, only, elsewhere;
   int resolution = 1;
   bool temporal = false;
   VariantFlags variant;

@@ -22,7 +22,7 @@ void check_of_files_written(const FrameOutputs& outputs, const RunCommand& flags
 
 /// The planes asked for, else what a shot's file holds: the first output, with the extras.
 std::vector<std::string> planes_for_copy(const PlanRequest& request, const Plan& plan) {
-  if (!request.only.empty()) return plan.outputs;
+  if (!request.only_outputs.empty()) return plan.outputs;
   std::vector<std::string> planes = {plan.outputs.front()};
   add_new(planes, request.with);
   return planes;

@@ -21,7 +21,7 @@ void run_command(const RunCommand& given, const CLI::App& command) {
   RunCommand flags = given;
   flags.technique = variant_name(given.technique, given.technique_flags.variant);
   PlanRequest request = flags.technique_flags.request({flags.technique});
-  if (!flags.outputs.empty()) request.only = split_list(flags.outputs, "--outputs");
+  if (!flags.outputs.empty()) request.only_outputs = split_list(flags.outputs, "--outputs");
   if (flags.frame.has_pattern()) {
     flags.given = contents_in_words(command);
     flags.repeated = repeated_words(command, not_of_chunks);

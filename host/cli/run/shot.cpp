@@ -170,9 +170,9 @@ void run_on_shot(const RunCommand& flags, const PlanRequest& alone) {
   PlannedFrame first = first_planned(shot, given, carried.depth, named.has_composite());
   keep_first_output(first, carried.depth);
   const OutputSettings writing = output_settings(flags, !flags.shot.as_float, first.request, first.plan);
-  const std::vector<std::string> written = first.request.only;
+  const std::vector<std::string> written = first.request.only_outputs;
   if (given.temporal) {
-    first.request.only = with_planes_for_history(first.request.only, first.plan.technique);
+    first.request.only_outputs = with_planes_for_history(first.request.only_outputs, first.plan.technique);
     plan_again(first, carried.depth);
   }
   ShotSettings settings{.request = first.request,

@@ -37,9 +37,9 @@ PlannedFrame planned_frame(FrameFiles files, const PlanRequest& request, bool ca
 
 void keep_first_output(PlannedFrame& planned, bool carries_depth) {
   PlanRequest& request = planned.request;
-  if (!request.only.empty()) return;
-  request.only = {planned.plan.outputs.front()};
-  add_new(request.only, request.with);
+  if (!request.only_outputs.empty()) return;
+  request.only_outputs = {planned.plan.outputs.front()};
+  add_new(request.only_outputs, request.with);
   plan_again(planned, carries_depth);
 }
 

@@ -16,11 +16,11 @@ struct PlanRequest {
   /// Planes to make; a technique's name stands for its outputs.
   std::vector<std::string> outputs = {};
   /// Of the outputs, only the planes named here (empty: all); may name a technique's extras.
-  std::vector<std::string> only = {};
+  std::vector<std::string> only_outputs = {};
   /// Extras to make besides the outputs of the techniques asked for: "bent_normal".
   std::vector<std::string> with = {};
   /// Replaces every technique's `then`: a technique, "none", or empty for the default.
-  std::string then = {};
+  std::string filter = {};
   std::string preset = {};
   /// name = value, or technique.name = value. A bare name applies to every planned technique that has the parameter.
   Settings settings = {};
@@ -29,7 +29,7 @@ struct PlanRequest {
   std::optional<double> radius = {};
   /// Restricts the techniques asked for and their filters to pixels where this plane, or the plane that this technique makes, is
   /// above 0. Estimates also cover what filters read around these pixels. The other pixels are open. Empty: no restriction.
-  std::string mask = {};
+  std::string only = {};
   /// Technique for the pixels where the mask is not above 0, instead of leaving them open. Filters then cover the whole image.
   std::string elsewhere = {};
   /// Masks asked for are returned with one pixel per cell (`Pass::repeats_cells`), under the cells' own name; at a lower
