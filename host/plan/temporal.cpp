@@ -165,7 +165,7 @@ namespace {
 void check_no_ao_beside(const PlanRequest& request, const Technique& technique) {
   for (const std::string& plane : request.with) {
     if (contains(technique.extras, "ao_raw") && (plane == "ao" || plane == "ao_raw"))
-      throw UsageError("{}: of {} is not accumulated over time; run bitmask {} for it, and leave it out here",
+      throw UsageError("{}: {} does not accumulate it over time; leave it out, and run bitmask {} for it",
                        option("with", plane), technique.name, option("temporal"));
   }
 }

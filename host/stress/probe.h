@@ -94,7 +94,7 @@ class Probe {
   /// settings or sizes are tried.
   std::vector<RunOptions> all_ways() const;
   std::vector<RunOptions> two_ways() const;
-  /// The same for settings that no other case uses, each of which compiles separately: in a quick run one of the two.
+  /// `two_ways` for settings that no other case uses; in a quick run the first of the two alone, since each has to be compiled.
   std::vector<RunOptions> ways_of_rare_settings() const;
   /// The defaults; in a quick run the cheapest preset, for properties that hold for any number of samples.
   Settings usual_samples() const;

@@ -14,7 +14,7 @@
 namespace gloam::viewer {
 namespace {
 
-/// A higher level gains a few percent and takes several times as long.
+/// A higher level makes the page a few percent smaller, and takes several times as long.
 constexpr int compression_level = 4;
 
 /// Largest finite half, and the least float that is rounded to infinity.

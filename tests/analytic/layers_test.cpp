@@ -15,16 +15,15 @@ namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
 
-/// X of each dp-X that estimates the same ambient occlusion from layers as from a depth: not those that are fitted to each. What layers
+/// The methods whose variants over peeled layers estimate the same ambient occlusion from layers as from a depth: not those that are fitted to each. What layers
 /// send besides is indirect_test.cpp's.
 std::vector<std::string> techniques_with_layers() {
   std::vector<std::string> names;
-  for (const std::string& name : technique_names()) {
-    if (name.rfind("dp-", 0) != 0) continue;
-    const Technique& technique = find_technique(name);
+  for (const Technique& technique : registry()) {
+    if (technique.variant.layers != Layers::peeled) continue;
     const bool is_fitted = ParameterValues(technique.parameters).has("coefficients");
     const std::vector<std::string>& made = technique.writes;
-    if (!is_fitted && std::find(made.begin(), made.end(), "ao_raw") != made.end()) names.push_back(name.substr(3));
+    if (!is_fitted && std::find(made.begin(), made.end(), "ao_raw") != made.end()) names.push_back(technique.variant.of);
   }
   return names;
 }

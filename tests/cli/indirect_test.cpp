@@ -180,7 +180,7 @@ TEST_F(CliIndirectOverTime, AShotIsWhatFrameAfterFrameIsAndWhatChunksAre) {
 TEST_F(CliIndirectOverTime, WhatIsNotAccumulatedIsRefused) {
   walk(2, 0, 64, 36);
   expect_refused({"run", "indirect", file("shot.0001.exr"), "-o", file("o.exr"), "--temporal", "--with", "ao"}, 2,
-                 {"--with ao: of indirect is not accumulated over time; run bitmask --temporal"});
+                 {"--with ao: indirect does not accumulate it over time; leave it out, and run bitmask --temporal"});
   expect_refused({"run", "indirect", file("shot.0001.exr"), "-o", file("o.exr"), "--temporal", "--resolution", "half"},
                  2, {"works at full resolution"});
   ASSERT_EQ(gloam({"run", "gtao", path("shot.0001.exr"), "-o", path("ao.exr"), "--radius", "0.5", "--temporal"}).status,

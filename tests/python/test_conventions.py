@@ -63,7 +63,7 @@ def test_normals_in_the_convention_of_gloam_need_no_note(room):
 def test_what_is_stated_stands_and_is_told(room):
     flipped = room["normal"] * numpy.float32([1, -1, 1])
     result = run(room, normal=flipped, normal_axes="x,y,z")
-    assert ["--normal-axes x,-y,z states that" in note for note in on_normals(result)] == [True]
+    assert ["normal_axes='x,-y,z' states that" in note for note in on_normals(result)] == [True]
 
 
 def test_normals_that_join_a_frame_are_looked_at(room):

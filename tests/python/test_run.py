@@ -35,12 +35,29 @@ def file(tmp_path_factory, frame):
     ("gtao", {"radius": 0.5, "extras": ["bent_normal"], "jitter": False}, ["--radius", "0.5", "--with", "bent_normal", "--set", "jitter=off"]),
     ("gtao", {"radius": 0.5, "settings": {"bilateral.half_width": 2}}, ["--radius", "0.5", "--set", "bilateral.half_width=2"]),
     ("sssr", {}, []),
+    ("ao", {"layers": "one", "eyes": "one"}, ["--layers", "one", "--eyes", "one"]),
 ])
 def test_a_frame_gives_what_the_command_gives(technique, keywords, flags, file, frame, command, tmp_path):
     command("run", technique, file, "-o", tmp_path / "out.exr", *flags)
     result = gloam.run(technique, gloam.read(file), **keywords)
     assert_same(result, planes_of(tmp_path / "out.exr", result))
     assert_same(gloam.run(technique, file, **keywords), dict(result))
+
+
+def test_layers_and_eyes_choose_variants(frame):
+    pair = gloam.capture("colonnade", 60, 40, ["normal"], stereo=0.065, peel=2)
+    layered = gloam.run("gtao", pair, radius=0.5, layers="peeled")
+    assert layered.technique == "dp-gtao"
+    assert all(numpy.array_equal(a, b) for a, b in zip(layered["ao"], gloam.run("dp-gtao", pair, radius=0.5)["ao"]))
+    assert gloam.run("gtao", pair, radius=0.5, eyes="both").technique == "stereo-gtao"
+    for keywords, sentence in [(dict(technique="gtao", layers="peeled", eyes="both"), "gtao: has no variant layers='peeled' eyes='both'; there are gtao, "),
+                               (dict(technique="dp-gtao", layers="stochastic"), "dp-gtao: is gtao with layers='peeled', which layers='stochastic' contradicts"),
+                               (dict(technique="gtao", layers="peel"), "layers peel is not allowed (did you mean 'peeled'?)")]:
+        with pytest.raises(gloam.UsageError) as raised:
+            gloam.run(frame=frame, **keywords)
+        assert sentence in str(raised.value)
+    assert gloam.techniques()["stereo-sd-hbao+"].variant == {"of": "hbao+", "layers": "stochastic", "eyes": "both"}
+    assert gloam.techniques()["gtao"].variant is None
 
 
 def test_arrays_give_what_the_command_gives(file, command, tmp_path):

@@ -108,7 +108,7 @@ void check_files_written(const AutoCommand& flags) {
   if (!flags.out.empty()) return check_frame_name(flags.out, "-o");
   for (const auto& [flag, is_given] : {std::pair("--half", flags.half), std::pair("--float", flags.shot.as_float),
                                        std::pair("--keep-depth", flags.shot.keep_depth)}) {
-    if (is_given) throw UsageError("{}: is of -o OUT.exr, and none is written; leave it out", flag);
+    if (is_given) throw UsageError("{}: changes the file of -o OUT.exr, which is not given; leave it out", flag);
   }
 }
 

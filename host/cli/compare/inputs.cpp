@@ -38,7 +38,7 @@ void CompareFlags::take_plane_names() {
       continue;
     }
     if (!plane.empty() && plane != *it)
-      throw UsageError("--plane {}: {} is to be compared already; one plane is at a time", *it, plane);
+      throw UsageError("--plane {}: one plane is compared, and {} is named already; leave one of the two out", *it, plane);
     plane = *it;
     it = planes.erase(it);
   }

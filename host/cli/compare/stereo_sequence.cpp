@@ -80,7 +80,7 @@ void check_stereo_flags(const CompareFlags& flags, const StereoFlags& stereo, co
        {NamedPath{"--anaglyph", stereo.anaglyph}, NamedPath{"--side-by-side", stereo.side_by_side},
         NamedPath{"--differences", sequence.differences}}) {
     if (value.empty()) continue;
-    throw UsageError("{} {}: two views of a sequence have none; leave it out, or compare one frame", flag, value);
+    throw UsageError("{} {}: shows the two views of one frame; leave it out, or compare one frame", flag, value);
   }
   if (!flags.frame_flags.view.empty())
     throw UsageError("--view {}: --stereo needs two views; --views A,B says which", flags.frame_flags.view);

@@ -175,7 +175,7 @@ void print_technique(const Technique& t, const std::set<std::string>& settable) 
   if (!t.paper.empty()) fmt::print("  paper   {}\n", t.paper);
   fmt::print("  reads   {}\n  writes  {}\n", all_reads(t), fmt::join(t.writes, ", "));
   if (t.views > 1) fmt::print("  views   a frame of two\n");
-  if (!t.variant.of.empty()) fmt::print("  variant {} {}\n", t.variant.of, options_of(t.variant));
+  if (!t.variant.of.empty()) fmt::print("  variant of {}: {}\n", t.variant.of, options_of(t.variant));
   for (const Technique* v : variants_of(t)) fmt::print("  variant {}: {}\n", options_of(v->variant), v->name);
   if (!t.then.empty()) fmt::print("  then    {} (--filter chooses another, or none)\n", t.then);
   for (const std::string& plane : t.extras) fmt::print("  --with  {}: {}\n", plane, plane_kind(plane).help);
@@ -261,15 +261,15 @@ void print_techniques_markdown() {
       "`--layers` and `--eyes` choose a method's variants: over stochastic or peeled layers of depth, or for both of "
       "two eyes.\n"
       "`gloam run gtao F.exr --layers peeled` is `gloam run dp-gtao F.exr`.\n\n"
-      "| technique | what it does | layers | eyes | reads | writes |\n|---|---|---|---|---|---|\n");
+      "| technique | what it does | `--layers stochastic`, `peeled` | `--eyes both` | reads | writes "
+      "|\n|---|---|---|---|---|---|\n");
   const std::vector<std::string> names = technique_names(), anchors = anchors_of(names);
-  const auto link = [&](const Technique& t, const std::string& word) {
-    return fmt::format("[{}](#{})", word, anchors[size_t(&t - registry().data())]);
+  const auto link = [&](const Technique& t, const std::string&) {
+    return fmt::format("[`{}`](#{})", t.name, anchors[size_t(&t - registry().data())]);
   };
   for (const Technique* t : methods()) {
-    fmt::print("| {} | {} | {} | {} | {} | {} |\n", link(*t, "`" + t->name + "`"), t->summary,
-               variants_in_words(*t, false, ", ", link), variants_in_words(*t, true, ", ", link), all_reads(*t),
-               all_writes(*t));
+    fmt::print("| {} | {} | {} | {} | {} | {} |\n", link(*t, ""), t->summary, variants_in_words(*t, false, ", ", link),
+               variants_in_words(*t, true, ", ", link), all_reads(*t), all_writes(*t));
   }
   for (const Technique& t : registry()) print_section(t);
 }

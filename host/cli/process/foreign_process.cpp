@@ -201,7 +201,7 @@ std::vector<std::string> words_of_command(const std::string& command, const std:
   if (words.empty()) throw UsageError("{}: is empty; write 'engine --in {{frame}} --out {{image}}'", flag);
   for (const std::string& each : words) {
     if (contains(operators, each))
-      throw UsageError("{} {}: '{}' is for a shell, and none takes part; write sh -c '...'", flag, command, each);
+      throw UsageError("{} {}: '{}' is for a shell, and gloam starts none; write sh -c '...'", flag, command, each);
   }
   return words;
 }

@@ -12,7 +12,7 @@ namespace {
 void check_of_files_written(const FrameOutputs& outputs, const RunCommand& flags) {
   const bool has_out = !outputs.out.empty();
   const auto refuse = [](const char* flag, const char* of) {
-    throw UsageError("{}: is of {}, and none is written; leave it out", flag, of);
+    throw UsageError("{}: changes the file of {}, which is not given; leave it out", flag, of);
   };
   if (flags.half && !has_out) refuse("--half", "-o OUT.exr");
   if (flags.shot.keep_depth && !has_out) refuse("--keep-depth", "-o OUT.exr");
@@ -35,7 +35,7 @@ std::string plane_to_composite(const CompositeFlags& flags, const Plan& plan) {
     throw UsageError("--composite {}: is made with 'ao' or 'reflection', and {} makes only {}", flags.path,
                      plan.technique, enumerate(plan.outputs));
   if (plane == "reflection" && flags.tint)
-    throw UsageError("--tint: is of ambient occlusion, and '{}' makes a reflection, which is added; leave it out",
+    throw UsageError("--tint: colours ambient occlusion, and '{}' makes a reflection, which is added; leave it out",
                      plan.technique);
   return plane;
 }

@@ -35,7 +35,7 @@ void check_flags(const RunCommand& flags) {
   if (!flags.picture.empty())
     throw UsageError("--picture {}: is made of one frame; leave it out, or run that frame alone", flags.picture);
   if (!frame.history.empty())
-    throw UsageError("--history {}: is of one frame; run frame after frame, each with the file of the one before",
+    throw UsageError("--history {}: goes with one frame; run one frame after another, each with the file of the one before",
                      frame.history);
   if (is_temporal(flags) && flags.shot.choice.missing == MissingFrames::hold)
     throw UsageError(

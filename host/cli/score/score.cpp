@@ -36,7 +36,7 @@ struct ScoreFlags {
     std::string found;
     for (const std::string& each : json) {
       if (each == "-") continue;
-      if (!found.empty()) throw UsageError("--json {}: {} is the entry already; one is scored at a time", each, found);
+      if (!found.empty()) throw UsageError("--json {}: one entry is scored at a time, and {} is given already", each, found);
       found = each;
     }
     if (found.empty())

@@ -13,8 +13,8 @@ Pass = collections.namedtuple("Pass", ["view", "name", "ms"])
 Pass.__doc__ = "A pass of a run: the view, its name such as 'gtao/estimate', and a list of times on the device, milliseconds."
 
 #: Keywords of `run` that are neither planes nor parameters of techniques.
-_OPTIONS = ("layers", "eyes", "preset", "filter", "extras", "outputs", "resolution", "adaptive", "only", "elsewhere", "math", "real", "lanes", "seed",
-            "repeat", "strips")
+_OPTIONS = ("preset", "filter", "extras", "outputs", "resolution", "adaptive", "only", "elsewhere", "math", "real", "lanes", "seed",
+            "repeat", "strips", "layers", "eyes")
 
 #: Those that are named in its signature.
 _NAMED = ("camera", "fov", "views", "device", "settings") + _words.NORMALS
@@ -279,7 +279,7 @@ def run(technique, frame=None, *, camera=None, fov=None, views=None, device=None
     strips: computes a frame that is too large for the device in strips of rows, so many, or "auto", as few as fit. The estimate is the same
         but for the random numbers of its samples, which begin anew in each strip.
 
-    Raises gloam.Error, with the sentence of the command `gloam`: gloam.UsageError for names and values, gloam.MissingPlanes for all planes
+    Raises gloam.Error, with the sentence of the command `gloam`, in which options are keywords: gloam.UsageError for names and values, gloam.MissingPlanes for all planes
     that the technique lacks. The interpreter is free for other threads meanwhile, and Ctrl-C ends the call between two passes.
     """
     options = {name: keywords.pop(name) for name in _OPTIONS if name in keywords}
