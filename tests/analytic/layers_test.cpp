@@ -15,8 +15,8 @@ namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
 
-/// The methods whose variants over peeled layers estimate the same ambient occlusion from layers as from a depth: not those that are fitted to each. What layers
-/// send besides is indirect_test.cpp's.
+/// The methods whose variants over peeled layers estimate the same ambient occlusion from layers as from a depth: not those that are
+/// fitted to each. What layers send besides is indirect_test.cpp's.
 std::vector<std::string> techniques_with_layers() {
   std::vector<std::string> names;
   for (const Technique& technique : registry()) {

@@ -6,8 +6,8 @@
 #include <OpenEXR/ImfStandardAttributes.h>
 
 #include <cmath>
-#include <set>
 #include <regex>
+#include <set>
 
 #include "cli/gloam_process.h"
 #include "support/stress.h"

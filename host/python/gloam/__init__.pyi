@@ -178,6 +178,7 @@ class Technique:
     caution: str
     parameters: Dict[str, Parameter]
     presets: Dict[str, Dict[str, str]]
+    variant: Optional[Dict[str, str]]
 
 def run(technique: str, frame: Union[Frame, Path, _Sequence[Path], None] = None, *, camera: Union[Camera, List[Camera], Path, None] = None,
         fov: Optional[float] = None, views: Union[str, List[str], None] = None, device: Union[Device, str, None] = None,

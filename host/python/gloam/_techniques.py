@@ -12,7 +12,8 @@ class Technique:
     """What is known of a technique.
 
     name, summary, paper; reads, optional, writes, outputs, extras: names of planes; then: the filter that follows; views: how many it
-    needs; caution; presets: settings by name; parameters: a dict of gloam.Parameter by name. A default of None comes from the frame.
+    needs; caution; presets: settings by name; parameters: a dict of gloam.Parameter by name, whose default of None comes from the frame;
+    variant: None, or a dict of what the technique is a variant of: of, layers, eyes, as for gloam.run.
     """
 
     def __init__(self, facts):
