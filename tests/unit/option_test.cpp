@@ -6,7 +6,7 @@
 #include "gloam/plan.h"
 #include "unit/message_of.h"
 
-namespace gloam {
+namespace gloam::test {
 namespace {
 
 /// The tests of this program hold the words of the command.
@@ -49,4 +49,4 @@ TEST_F(Options, OfAPlanAreNamedInItsErrors) {
 }
 
 }  // namespace
-}  // namespace gloam
+}  // namespace gloam::test
