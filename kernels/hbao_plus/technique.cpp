@@ -78,6 +78,7 @@ Technique over_stochastic() {
 
 Technique multiview() {
   Technique t = over_stochastic();
+  t.variant = {};  // a method of its own
   t.name = "multiview";
   t.summary = "sd-hbao+ for the first of two views, with occluders from both";
   t.paper = "Vermeer, Scandolo, Eisemann 2021";
