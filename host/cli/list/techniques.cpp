@@ -162,7 +162,7 @@ void print_techniques() {
         return variants_in_words(*t, both_eyes, " ", [](const Technique&, const std::string& word) { return word; });
       };
       const bool is_default = contains(t->default_for, "ao_raw");
-      fmt::print("  {:<{}}  {:<17}  {:<15}  {}{}\n", t->name, width, columns(false), columns(true), t->summary,
+      fmt::print("  {:<{}}  {:<17}  {:<20}  {}{}\n", t->name, width, columns(false), columns(true), t->summary,
                  is_default ? " (the default: gloam run ao)" : "");
     }
   }
