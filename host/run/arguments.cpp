@@ -7,6 +7,7 @@
 #include "base/lists.h"
 #include "gloam/planes.h"
 #include "run/kernel_projection.h"
+#include "technique/kernel_sources.h"
 
 namespace gloam {
 namespace {
@@ -135,22 +136,29 @@ cl::Buffer projections_of(Device::Impl& device, const Plan& plan, const PlannedP
 
 }  // namespace
 
-std::vector<std::string> declared_arguments(const PlannedPass& planned, const Layouts& layouts) {
-  std::vector<std::string> names = {"frame"};
-  if (other_scale(planned, layouts) != 0) names.push_back("other");
-  if (takes(planned.pass, From::other_view) || takes(planned.pass, From::frame_before)) names.push_back("neighbour");
-  if (planned.pass.projects) names.push_back("projections");
-  if (!planned.technique->parameters.empty()) names.push_back("params");
-  for (const auto& [argument, unused] : planned.pass.tables) names.push_back(argument);
-  for (const auto& [argument, unused] : planned.pass.view_tables) names.push_back(argument);
-  for (const std::vector<Binding>* list : {&planned.pass.reads, &planned.pass.writes}) {
+std::vector<Argument> declared_arguments(const PlannedPass& planned, const Layouts& layouts) {
+  const Pass& pass = planned.pass;
+  std::vector<Argument> all = {{"Frame", "frame"}};
+  if (other_scale(planned, layouts) != 0) all.push_back({"Frame", "other"});
+  if (takes(pass, From::other_view) || takes(pass, From::frame_before)) all.push_back({"Neighbour", "neighbour"});
+  if (pass.projects) all.push_back({"PROJECTIONS", "projections"});
+  if (!planned.technique->parameters.empty()) all.push_back({"Params", "params"});
+  for (const auto& [argument, unused] : pass.tables) all.push_back({"TABLE", argument});
+  for (const auto& [argument, unused] : pass.view_tables) all.push_back({"PLANE", argument});
+  for (const auto& [type, list] : {std::pair{"PLANE", &pass.reads}, std::pair{"PLANE_OUT", &pass.writes}}) {
     for (const Binding& binding : *list) {
-      for (const std::string& component : plane_kind(binding.plane).components) {
-        names.push_back(component.empty() ? binding.argument : binding.argument + "_" + component);
-      }
+      for (const std::string& component : plane_kind(binding.plane).components)
+        all.push_back({type, component.empty() ? binding.argument : binding.argument + "_" + component});
     }
   }
-  return names;
+  return all;
+}
+
+std::string declaration_of(const PlannedPass& planned, const Layouts& layouts) {
+  std::vector<std::string> arguments;
+  for (const Argument& argument : declared_arguments(planned, layouts))
+    arguments.push_back(argument.type + " " + argument.name);
+  return fmt::format("{}#define ARGUMENTS {}\n", struct_of(planned.technique->parameters), fmt::join(arguments, ", "));
 }
 
 void set_arguments(cl::Kernel& kernel, const Plan& plan, const PlannedPass& planned, Device::Impl& device,

@@ -243,13 +243,13 @@ void Device::Impl::keep(const std::string& key, const cl::Program& program) cons
   }
 }
 
-cl::Program& Device::Impl::program(const std::string& source, const std::string& kernel,
-                                   const ParameterList& parameters, const std::string& options) {
-  const std::string name = source + " " + kernel + " " + options;
+cl::Program& Device::Impl::program(const std::string& source, const std::string& kernel, const std::string& declaration,
+                                   const std::string& options) {
+  const std::string name = source + " " + kernel + " " + declaration + options;
   const auto known = programs.find(name);
   if (known != programs.end()) return known->second;
   const DriverAtWork driver;
-  const std::string text = kernel_text(source, kernel, parameters), key = key_of(text, options);
+  const std::string text = kernel_text(source, kernel, declaration), key = key_of(text, options);
   std::unique_ptr<cl::Program> built = kept_program(key, options);
   if (built) return programs.emplace(name, std::move(*built)).first->second;
   built = std::make_unique<cl::Program>(context, text);

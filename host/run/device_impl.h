@@ -22,13 +22,13 @@ struct Device::Impl {
   cl::Device device;
   cl::Context context;
   cl::CommandQueue queue;
-  std::map<std::string, cl::Program> programs;  ///< by source file, kernel and build options
+  std::map<std::string, cl::Program> programs;  ///< by source file, kernel, declaration and build options
 
   KernelCache cache;  ///< compiled kernels on disk; none where the driver keeps its own
 
-  /// The built program of a kernel of a file for a technique with these parameters. Throws Error with the first error of the build
-  /// log, and the name of the file that holds all of it.
-  cl::Program& program(const std::string& source, const std::string& kernel, const ParameterList& parameters,
+  /// The built program of a kernel of a file, with the `declaration` of its arguments (run/arguments.h). Throws Error with the first
+  /// error of the build log, and the name of the file that holds all of it.
+  cl::Program& program(const std::string& source, const std::string& kernel, const std::string& declaration,
                        const std::string& options);
 
  private:

@@ -5,26 +5,9 @@
 #include "gloam/error.h"
 #include "run/arguments.h"
 #include "run/driver.h"
+#include "technique/kernel_sources.h"
 
 namespace gloam {
-namespace {
-
-/// The kernel's own argument names; empty if the driver does not report them.
-std::vector<std::string> kernel_arguments(const cl::Kernel& kernel) {
-  std::vector<std::string> names;
-  try {
-    for (cl_uint i = 0; i < kernel.getInfo<CL_KERNEL_NUM_ARGS>(); ++i) {
-      std::string name = kernel.getArgInfo<CL_KERNEL_ARG_NAME>(i);
-      while (!name.empty() && name.back() == '\0') name.pop_back();
-      names.push_back(name);
-    }
-  } catch (const cl::Error&) {
-    return {};
-  }
-  return names;
-}
-
-}  // namespace
 
 Tuning tuning_for(const DeviceInfo& info, const RunOptions& options) {
   Tuning tuning = info.tuning;
@@ -35,7 +18,7 @@ Tuning tuning_for(const DeviceInfo& info, const RunOptions& options) {
 }
 
 std::string build_options(const PlannedPass& planned, const DeviceInfo& info, const RunOptions& options, int lanes) {
-  std::string text = fmt::format("-cl-std=CL1.2 -cl-kernel-arg-info -D LANES={}", lanes);
+  std::string text = fmt::format("-cl-std=CL1.2 -D LANES={}", lanes);
   if (options.math == Math::fast) text += " -D MATH_FAST=1";
   if (options.math == Math::precise && info.rounds_correctly) text += " -cl-fp32-correctly-rounded-divide-sqrt";
   if (options.real == Real::float64) text += " -D REAL_DOUBLE=1";
@@ -44,30 +27,27 @@ std::string build_options(const PlannedPass& planned, const DeviceInfo& info, co
   if (const char* error = std::getenv("GLOAM_QUOTIENT_ERROR"); error && *error)
     text += fmt::format(" -D QUOTIENT_ERROR={}", std::atoi(error));
   if (options.gathers_only) text += " -D GATHERS_ONLY=1";
-  if (const std::string& type = planned.technique->parameters.type; !type.empty()) text += " -D Params=" + type;
   for (const auto& [name, value] : planned.pass.defines) text += fmt::format(" -D {}={}", name, value);
   return text;
+}
+
+std::string kernel_text(const PlannedPass& planned, const Layouts& layouts) {
+  return kernel_text(source_of(*planned.technique, planned.pass), planned.pass.kernel,
+                     declaration_of(planned, layouts));
 }
 
 cl::Kernel build_kernel(const PlannedPass& planned, const Layouts& layouts, Device::Impl& device,
                         const RunOptions& options, int lanes) {
   const std::string& source = source_of(*planned.technique, planned.pass);
-  cl::Program& program = device.program(source, planned.pass.kernel, planned.technique->parameters,
+  cl::Program& program = device.program(source, planned.pass.kernel, declaration_of(planned, layouts),
                                         build_options(planned, device.info, options, lanes));
-  cl::Kernel kernel;
   try {
-    kernel = cl::Kernel(program, planned.pass.kernel.c_str());
+    return cl::Kernel(program, planned.pass.kernel.c_str());
   } catch (const cl::Error& error) {
     restart_without_kept_kernels();  // a damaged kept program may have lost them
-    throw Error("{}: kernels/{} has no kernel '{}' ({})", planned.label(), source, planned.pass.kernel,
+    throw Error("{}: kernels/{} has no kernel void {}(ARGUMENTS) ({})", planned.label(), source, planned.pass.kernel,
                 cl_error_name(error.err()));
   }
-  const std::vector<std::string> declared = declared_arguments(planned, layouts), actual = kernel_arguments(kernel);
-  if (!actual.empty() && declared != actual) {
-    throw Error("{}: the pass declares ({}), kernel '{}' takes ({})", planned.label(), fmt::join(declared, ", "),
-                planned.pass.kernel, fmt::join(actual, ", "));
-  }
-  return kernel;
 }
 
 }  // namespace gloam

@@ -17,9 +17,6 @@ std::string included(const std::string& line) {
   return end == std::string::npos ? "" : line.substr(start + word.size(), end - start - word.size());
 }
 
-/// Macros are in capitals: ESTIMATE_NAME.
-bool is_macro(const std::string& name) { return name.find_first_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ") != std::string::npos; }
-
 void append(const std::string& file, std::set<std::string>& seen, std::string& out) {
   if (!seen.insert(file).second) return;
   out += fmt::format("#line 1 \"{}\"\n", file);
@@ -51,25 +48,32 @@ std::string struct_of(const ParameterList& parameters) {
   std::string fields;
   for (const Parameter& parameter : parameters)
     fields += fmt::format("  {} {};\n", parameter.type == Parameter::Type::floating ? "float" : "int", parameter.name);
-  return fmt::format("typedef struct {{\n{}}} {};\n", fields, parameters.type);
+  return fmt::format("typedef struct {{\n{}}} Params;\n", fields);
 }
 
 std::string with_one_kernel(const std::string& source, const std::string& kernel) {
-  const std::string start = "kernel void ";
+  const std::string start = "kernel void ", own = start + kernel + "(ARGUMENTS)", place = "#line ";
   std::istringstream lines(source);
-  std::string line, out;
-  while (std::getline(lines, line)) {
-    if (line.rfind(start, 0) == 0) {
-      const std::string name = line.substr(start.size(), line.find('(') - start.size());
-      if (name != kernel && !is_macro(name)) line.replace(0, start.size(), "static void ");
+  std::string out, file;
+  int number = 0;
+  bool drops = false;
+  for (std::string line; std::getline(lines, line); ++number) {
+    if (line.rfind(place, 0) == 0) {
+      const size_t space = line.find(' ', place.size());
+      number = std::stoi(line.substr(place.size())) - 1;
+      file = line.substr(space);
     }
-    out += line + "\n";
+    drops |= line.rfind(start, 0) == 0 && line.rfind(own, 0) != 0;
+    if (!drops) out += line + "\n";
+    if (!drops || line != "}") continue;
+    drops = false;
+    out += fmt::format("#line {}{}\n", number + 1, file);
   }
   return out;
 }
 
-std::string kernel_text(const std::string& file, const std::string& kernel, const ParameterList& parameters) {
-  return struct_of(parameters) + with_one_kernel(flatten(file), kernel);
+std::string kernel_text(const std::string& file, const std::string& kernel, const std::string& declaration) {
+  return declaration + with_one_kernel(flatten(file), kernel);
 }
 
 }  // namespace gloam

@@ -15,14 +15,14 @@ const std::map<std::string, std::string>& kernel_sources();
 /// and line. Throws Error for a missing file.
 std::string flatten(const std::string& file);
 
-/// A technique's parameters as the struct that its kernels take, in OpenCL C; empty where there are none.
+/// A technique's parameters as the struct Params, in OpenCL C; empty where there are none.
 std::string struct_of(const ParameterList& parameters);
 
-/// The text with all other kernels made static functions. Unused ones are dropped, so PoCL compiles files with several kernels a
-/// third faster. Kernels whose name is a macro stay.
+/// A flattened text without all other kernels, whose arguments differ. A kernel begins with a line `kernel void NAME(ARGUMENTS) {` and ends with
+/// the line `}`.
 std::string with_one_kernel(const std::string& source, const std::string& kernel);
 
-/// The whole text of one kernel of a file, as it is compiled for a technique.
-std::string kernel_text(const std::string& file, const std::string& kernel, const ParameterList& parameters);
+/// The whole text of one kernel of a file, as it is compiled. `declaration`: of its parameters and arguments (run/arguments.h).
+std::string kernel_text(const std::string& file, const std::string& kernel, const std::string& declaration);
 
 }  // namespace gloam

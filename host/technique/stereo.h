@@ -23,7 +23,7 @@ struct StereoChoices {
 /// The passes of a technique for two eyes. `mono`: its passes for one eye; the last is the estimate, from "depth" and "normal"
 /// (its first two reads) to "ao_raw" or "indirect_raw". `both` is the kernel for both eyes, `both`_list the one for a list of pixels. Their
 /// arguments are the estimate's, with stereo_depth (shared/stereo/passes.h) instead of the depth, the list, and the same planes
-/// of the other eye except normals; the first also takes HALF_OCCLUDED_ARGUMENT (shared/stereo/half_occlusion.h). Extras are not
+/// of the other eye except normals; the first may also read other_half_occluded (shared/stereo/half_occlusion.h). Extras are not
 /// made.
 std::vector<Pass> stereo_passes(std::vector<Pass> mono, const std::string& both, const StereoChoices& choices);
 

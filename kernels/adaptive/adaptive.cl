@@ -8,7 +8,9 @@
 #include "adaptive/params.h"
 #include "shared/lanes/load.h"
 
-kernel void important_tiles(Frame frame, Frame other, Params params, PLANE ao, PLANE_OUT important) {
+// in : ao
+// out: important
+kernel void important_tiles(ARGUMENTS) {
   const integer first = (FIRST_X + IOTA) * PIXELS;
   real brightest = 0, darkest = 1;
   for (int dy = -1; dy <= PIXELS; ++dy) {

@@ -28,10 +28,8 @@
 
 #if LEVELS && !defined(OCCLUDERS_LAYERS)
 #define READS_LEVELS
-#define DEPTH_LEVELS_ARGUMENT PLANE depth_levels,
 #define DEPTH_LEVELS_FROM(depth)
 #else
-#define DEPTH_LEVELS_ARGUMENT
 #define DEPTH_LEVELS_FROM(depth) PLANE depth_levels = depth;
 #endif
 
@@ -70,7 +68,9 @@ static inline integer level_of(Frame frame, Params params, real distance) {
 
 #ifdef LEVEL
 // `frame`: the level; `other`: the image. Writes layer LEVEL - 1, laid out like the image, in its left top part.
-kernel void sao_level(Frame frame, Frame other, SaoParams params, PLANE depth, PLANE_OUT depth_levels) {
+// in : depth
+// out: depth_levels
+kernel void sao_level(ARGUMENTS) {
   integer column, row;
   picked_pixel(other, (integer)(LEVEL), FIRST_X + IOTA, (integer)(ROW_Y), &column, &row);
   const real picked = gather(depth, FRAME_GUARD + row * other.pitch + column);
@@ -158,8 +158,9 @@ static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame,
   return sum;
 }
 
-kernel void alchemy_estimate(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                             OCCLUDERS_ARGUMENT DEPTH_LEVELS_ARGUMENT WANTED_ARGUMENT PLANE_OUT ao_raw) {
+// in : depth, normal; wanted, occluders, depth_levels
+// out: ao_raw
+kernel void alchemy_estimate(ARGUMENTS) {
   SKIP_UNWANTED(frame, store((real)(1), ao_raw, here))
   const DepthLayers layers = LAYERS_FROM(frame, depth);
   DEPTH_LEVELS_FROM(depth)

@@ -17,15 +17,16 @@
 // Where the pixel of a cell faces away from the light by less than this cosine, others of the cell may face it.
 #define ROUNDED ((scalar)0.3f)
 
-kernel void contact_subsample(Frame frame, Frame other, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
-                              PLANE normal_z, PLANE_OUT low_depth, PLANE_OUT low_normal_x, PLANE_OUT low_normal_y,
-                              PLANE_OUT low_normal_z) {
+// in : depth, normal
+// out: low_depth, low_normal
+kernel void contact_subsample(ARGUMENTS) {
   subsample_surface(frame, other, depth, normal_x, normal_y, normal_z, low_depth, low_normal_x, low_normal_y,
                     low_normal_z);
 }
 
-kernel void contact_find(Frame frame, Params params, LIGHT, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                         PLANE_OUT found) {
+// in : light, depth, normal
+// out: found
+kernel void contact_find(ARGUMENTS) {
   LightRay r = light_ray_at(frame, light, params.length, params.max_reach * (scalar)frame.width, depth, normal_x,
                             normal_y, normal_z);
   // Pixels of the cell differ by a cell in where they start, and in what stands before their rays.

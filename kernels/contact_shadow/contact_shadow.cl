@@ -17,8 +17,9 @@ static inline real unshaded(LightRay r) {
   return choose(r.point.background | r.at_light | r.faces, (real)(1), (real)(0));
 }
 
-kernel void contact_shadow(Frame frame, Params params, LIGHT, PLANE depth, PLANE normal_x, PLANE normal_y,
-                           PLANE normal_z, WANTED_ARGUMENT PLANE_OUT contact) {
+// in : light, depth, normal; wanted
+// out: contact
+kernel void contact_shadow(ARGUMENTS) {
   const LightRay r = light_ray_at(frame, light, params.length, params.max_reach * (scalar)frame.width, depth, normal_x,
                                   normal_y, normal_z);
   SKIP_UNWANTED(frame, store(unshaded(r), contact, here))

@@ -8,8 +8,6 @@
 #include "shared/rays/screen_ray.h"
 #include "shared/sampling/sample.h"
 
-#define LIGHT constant float* light
-
 // A surface that light from lower above its tangent plane does not reach: sine of the light's elevation. Light along the surface
 // brings next to nothing, and rounding must not decide whether it arrives.
 #define GRAZING ((scalar)1e-3f)
@@ -36,7 +34,7 @@ typedef struct {
 } LightRay;
 
 // Unit direction towards the light, and the distance to it in depths of the point. The same bits in every mode.
-static inline real3 towards_light(LIGHT, Frame f, Anchor a, real* distance) {
+static inline real3 towards_light(PLANE light, Frame f, Anchor a, real* distance) {
 #if POINT
   const real3 v = make3((scalar)light[0] * a.inverse_depth - (a.x + (scalar)0.5 - f.centre_x) * a.across_x,
                         (scalar)light[1] * a.inverse_depth - (f.centre_y - a.y - (scalar)0.5) * a.across_y,
@@ -56,7 +54,7 @@ static inline real3 towards_light(LIGHT, Frame f, Anchor a, real* distance) {
 }
 
 // `longest`: scene units; `most_pixels`: on the screen.
-static inline LightRay light_ray_at(Frame f, LIGHT, scalar longest, scalar most_pixels, PLANE depth, PLANE normal_x,
+static inline LightRay light_ray_at(Frame f, PLANE light, scalar longest, scalar most_pixels, PLANE depth, PLANE normal_x,
                                     PLANE normal_y, PLANE normal_z) {
   LightRay r;
   r.x = FIRST_X + IOTA;

@@ -22,16 +22,17 @@
 #include "shared/sampling/cells.h"
 #include "shared/sampling/fan.h"
 
-kernel void corner_subsample(Frame frame, Frame other, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
-                             PLANE normal_z, PLANE_OUT low_depth, PLANE_OUT low_normal_x, PLANE_OUT low_normal_y,
-                             PLANE_OUT low_normal_z) {
+// in : depth, normal
+// out: low_depth, low_normal
+kernel void corner_subsample(ARGUMENTS) {
   subsample_surface(frame, other, depth, normal_x, normal_y, normal_z, low_depth, low_normal_x, low_normal_y,
                     low_normal_z);
 }
 
 #ifdef OCCLUDERS_LAYERS
-kernel void corner_subsample_hidden(Frame frame, Frame other, Params params, PLANE depth, PLANE stochastic,
-                                    PLANE_OUT hidden) {
+// in : depth, stochastic
+// out: hidden
+kernel void corner_subsample_hidden(ARGUMENTS) {
   const int from = index_of(other, FIRST_X * SCALE, ROW_Y * SCALE), to = index_of(frame, FIRST_X, ROW_Y);
   const integer step = IOTA * (integer)(SCALE);
   const real seen = gather(depth + from, step);
@@ -110,8 +111,9 @@ static inline __attribute__((always_inline)) mask something_rises(Frame frame, P
   return rises & !r.point.background;
 }
 
-kernel void corner_find(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                        OCCLUDERS_ARGUMENT PLANE_OUT found) {
+// in : depth, normal; occluders
+// out: found
+kernel void corner_find(ARGUMENTS) {
   const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   mask rises = (mask)(0);
   // Within a radius of 0 lies nothing, not even in the same cell.

@@ -5,8 +5,9 @@
 #include "dielectric/params.h"
 #include "shared/frame/camera.h"
 
-kernel void dielectric(Frame frame, DielectricParams params, PLANE depth, PLANE_OUT reflectance_r,
-                       PLANE_OUT reflectance_g, PLANE_OUT reflectance_b) {
+// in : depth
+// out: reflectance
+kernel void dielectric(ARGUMENTS) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const real f0 = choose(is_background(load(depth, here)), (real)(0), (real)(params.reflectance));
   store(f0, reflectance_r, here);

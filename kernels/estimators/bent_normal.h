@@ -1,10 +1,9 @@
 // Bent normal: mean of the open directions, weighted by solid angle. Cone: the cone about it that is as open as the directions
 // are (Klehm, Ritschel, Eisemann, Seidel 2012, sections 3.1 and 3.2).
 // -D BY_BENT_NORMAL: for a kernel's own use
-// -D WITH_BENT_NORMAL, WITH_CONE, WITH_SPECULAR_OCCLUSION_RAW, WITH_LOBE_WEIGHT (glossy_lobe.h): a kernel's last arguments and last line are
-//   ... PLANE_OUT ao_raw OPEN_DIRECTIONS_ARGUMENTS) {
+// -D WITH_BENT_NORMAL, WITH_CONE, WITH_SPECULAR_OCCLUSION_RAW, WITH_LOBE_WEIGHT (glossy_lobe.h): a kernel's last line is
 //   STORE_OPEN_DIRECTIONS(directions, receiver)
-// With the last two, the kernel has the argument ROUGHNESS_ARGUMENT after its occluders, and the line SET_LOBE(directions, receiver).
+// With the last two it reads `roughness`, and has the line SET_LOBE(directions, receiver).
 #ifndef GLOAM_BENT_NORMAL_H
 #define GLOAM_BENT_NORMAL_H
 
@@ -61,28 +60,23 @@ static inline real cone_of(OpenDirections d) {
 }
 
 #if WITH_BENT_NORMAL
-#define BENT_NORMAL_ARGUMENTS , PLANE_OUT bent_normal_x, PLANE_OUT bent_normal_y, PLANE_OUT bent_normal_z
 #define STORE_BENT_NORMAL(d, r) store_bent_normal(d, r, bent_normal_x, bent_normal_y, bent_normal_z);
 #define STORE_NO_BENT_NORMAL             \
   store((real)(0), bent_normal_x, here); \
   store((real)(0), bent_normal_y, here); \
   store((real)(0), bent_normal_z, here);
 #else
-#define BENT_NORMAL_ARGUMENTS
 #define STORE_BENT_NORMAL(d, r)
 #define STORE_NO_BENT_NORMAL
 #endif
 #if WITH_CONE
-#define CONE_ARGUMENT , PLANE_OUT cone
 #define STORE_CONE(d, r) store(choose((r).point.background, (real)(0), cone_of(d)), cone, (r).here);
 #define STORE_NO_CONE store((real)(0), cone, here);
 #else
-#define CONE_ARGUMENT
 #define STORE_CONE(d, r)
 #define STORE_NO_CONE
 #endif
 #if WITH_LOBE
-#define ROUGHNESS_ARGUMENT PLANE roughness,
 #define SET_LOBE(d, r) set_lobe(&d, (r).here, roughness);
 
 static inline void set_lobe(OpenDirections* d, int here, PLANE roughness) {
@@ -96,29 +90,23 @@ static inline real open_lobe_of(OpenDirections d) {
   return larger(1 - quotient(choose(is_there, d.lobe_closed, (real)(0)), choose(is_there, d.lobe, (real)(1))), (real)(0));
 }
 #else
-#define ROUGHNESS_ARGUMENT
 #define SET_LOBE(d, r)
 #endif
 #if WITH_SPECULAR_OCCLUSION_RAW
-#define OPEN_LOBE_ARGUMENT , PLANE_OUT specular_occlusion_raw
 #define STORE_OPEN_LOBE(d, r) \
   store(choose((r).point.background, (real)(1), open_lobe_of(d)), specular_occlusion_raw, (r).here);
 #define STORE_NO_OPEN_LOBE store((real)(1), specular_occlusion_raw, here);
 #else
-#define OPEN_LOBE_ARGUMENT
 #define STORE_OPEN_LOBE(d, r)
 #define STORE_NO_OPEN_LOBE
 #endif
 #if WITH_LOBE_WEIGHT
-#define LOBE_WEIGHT_ARGUMENT , PLANE_OUT lobe_weight
 #define STORE_LOBE_WEIGHT(d, r) store(choose((r).point.background, (real)(0), (d).lobe), lobe_weight, (r).here);
 #define STORE_NO_LOBE_WEIGHT store((real)(0), lobe_weight, here);
 #else
-#define LOBE_WEIGHT_ARGUMENT
 #define STORE_LOBE_WEIGHT(d, r)
 #define STORE_NO_LOBE_WEIGHT
 #endif
-#define OPEN_DIRECTIONS_ARGUMENTS BENT_NORMAL_ARGUMENTS CONE_ARGUMENT OPEN_LOBE_ARGUMENT LOBE_WEIGHT_ARGUMENT
 #define STORE_OPEN_DIRECTIONS(d, r) \
   STORE_BENT_NORMAL(d, r) STORE_CONE(d, r) STORE_OPEN_LOBE(d, r) STORE_LOBE_WEIGHT(d, r)
 // For pixels that are left out (SKIP_UNWANTED), at index `here`.

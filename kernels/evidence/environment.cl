@@ -16,11 +16,9 @@ static inline void store_light(real light, Receiver r, PLANE_OUT plane) {
   store(choose(r.point.background, (real)(0), larger(light, (real)(0))), plane, r.here);
 }
 
-kernel void environment_estimate(Frame frame, Params params, COEFFICIENTS, PLANE environment_light, PLANE depth,
-                                 PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                                 OCCLUDERS_ARGUMENT BACK_ARGUMENT WANTED_ARGUMENT PLANE_OUT environment_raw_r,
-                                 PLANE_OUT environment_raw_g,
-                                 PLANE_OUT environment_raw_b AO_RAW_ARGUMENT OPEN_DIRECTIONS_ARGUMENTS) {
+// in : coefficients, environment_light, depth, normal; occluders, wanted, back_depth
+// out: environment_raw; ao_raw, bent_normal, cone
+kernel void environment_estimate(ARGUMENTS) {
   SKIP_UNWANTED(frame, store((real)(0), environment_raw_r, here); store((real)(0), environment_raw_g, here);
                 store((real)(0), environment_raw_b, here); STORE_NO_AO_RAW STORE_NO_DIRECTIONS)
   const DepthLayers layers = LAYERS_FROM(frame, depth);

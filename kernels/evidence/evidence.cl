@@ -41,10 +41,8 @@
 #endif
 
 #if WITH_AO_ERROR
-#define AO_ERROR_ARGUMENT , PLANE_OUT ao_error
 #define STORE_NO_ERROR store((real)(0), ao_error, here);
 #else
-#define AO_ERROR_ARGUMENT
 #define STORE_NO_ERROR
 #endif
 
@@ -59,20 +57,17 @@
   DO(5)                                                                                                              \
   DO(6) DO(7) DO(8) DO(9) DO(10) DO(11) DO(12) DO(13) DO(14) DO(15) DO(16) DO(17) DO(18) DO(19) DO(20) DO(21) DO(22) \
       DO(23) DO(24) DO(25) DO(26)
-#define TERM_ARGUMENT(k) , PLANE_OUT term_##k
 #define STORE_TERM(k) store(choose(r.point.background, (real)(0), mean.terms[k]), term_##k, r.here);
-#define RESULTS PLANE_OUT ao_raw FOR_TERMS(TERM_ARGUMENT)
 #define STORE_OPEN
 #else
-#define RESULTS PLANE_OUT ao_raw OPEN_DIRECTIONS_ARGUMENTS AO_ERROR_ARGUMENT
 #define STORE_OPEN                \
   store((real)(1), ao_raw, here); \
   STORE_NO_ERROR STORE_NO_DIRECTIONS
 #endif
 
-kernel void evidence_estimate(Frame frame, Params params, COEFFICIENTS, PLANE depth, PLANE normal_x, PLANE normal_y,
-                              PLANE normal_z,
-                              OCCLUDERS_ARGUMENT ROUGHNESS_ARGUMENT BACK_ARGUMENT WANTED_ARGUMENT RESULTS) {
+// in : coefficients, depth, normal; occluders, roughness, wanted, back_depth
+// out: ao_raw; bent_normal, cone, specular_occlusion_raw, lobe_weight, ao_error
+kernel void evidence_estimate(ARGUMENTS) {
   SKIP_UNWANTED(frame, STORE_OPEN)
   const DepthLayers layers = LAYERS_FROM(frame, depth);
   Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
@@ -127,7 +122,7 @@ static inline void add_side_of_both(const View* own, const View* other, const Si
   evidence->others += of_both(s->others, o->others, is_seen) * per_sample;
 }
 
-static inline real closed_to_both(TABLES_ARGUMENT Search here, Search there, const View* own, const View* other,
+static inline real closed_to_both(TABLE_PARAMETERS Search here, Search there, const View* own, const View* other,
                                   mask is_seen) {
   Evidence evidence = no_evidence();
   add_side_of_both(own, other, &own->right, &other->right, is_seen, &evidence);

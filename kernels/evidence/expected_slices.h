@@ -24,14 +24,8 @@
 #ifndef WITH_BACK_DEPTH
 #define WITH_BACK_DEPTH 0
 #endif
-#define COEFFICIENTS constant float* coefficients
-#define TABLES_ARGUMENT COEFFICIENTS,
+#define TABLE_PARAMETERS TABLE coefficients,
 #define TABLES coefficients,
-#if WITH_BACK_DEPTH
-#define BACK_ARGUMENT PLANE back_depth,
-#else
-#define BACK_ARGUMENT
-#endif
 
 // What is the same for all slices of a row of pixels.
 typedef struct {
@@ -258,7 +252,7 @@ static inline real sum_of_terms(const real* t, constant float* weights) {
 }
 
 // Expected closed share of a slice. Most rows of pixels lie on open surfaces, and show nothing of all this.
-static inline __attribute__((always_inline)) real closed_share(Evidence e, real facing, COEFFICIENTS) {
+static inline __attribute__((always_inline)) real closed_share(Evidence e, real facing, TABLE coefficients) {
   real closed = (real)(0);
   if (ANY((e.below_horizon > 0) | (e.unknown > 0))) {
     real t[TERMS];
@@ -292,13 +286,13 @@ static inline real share_outside(Frame frame, Receiver r, Slice slice, int withi
   return outside * (scalar)(0.5f / STEPS);
 }
 
-static inline real error_of_outside(real outside, COEFFICIENTS) {
+static inline real error_of_outside(real outside, TABLE coefficients) {
   return outside * outside * coefficients[NUMBERS - 1];
 }
 #endif
 
 // Without the constant, and without what lies outside.
-static inline real expected_error(Evidence e, real facing, COEFFICIENTS) {
+static inline real expected_error(Evidence e, real facing, TABLE coefficients) {
   constant float* weights = coefficients + 2 * TERMS;
   real t[TERMS];
   terms_of(e, facing, t);
@@ -361,7 +355,7 @@ static inline Sum no_sum(void) {
 
 // One slice. `weight`: of its share in the mean.
 static inline __attribute__((always_inline)) void add_slice(Frame frame, Params params, DepthLayers layers,
-                                                            Search search, COEFFICIENTS, real turn, int within,
+                                                            Search search, TABLE coefficients, real turn, int within,
                                                             real weight, Sum* sum, OpenDirections* directions) {
   real cosine, sine;
   const real density = weight * draw_slice(search.receiver.point, search.surface, turn, &cosine, &sine);
@@ -414,7 +408,7 @@ static inline __attribute__((always_inline)) void add_slice(Frame frame, Params 
 
 // The mean over DIRECTIONS slices, and where `is_isolated` over EDGE_FACTOR times as many. Returns the closed share.
 static inline __attribute__((always_inline)) real mean_of_slices(Frame frame, Params params, DepthLayers layers,
-                                                                 Search search, COEFFICIENTS, mask is_isolated,
+                                                                 Search search, TABLE coefficients, mask is_isolated,
                                                                  int within, Sum* sum, OpenDirections* directions) {
   const Noise noise = search.receiver.noise;
   const real share =
@@ -436,7 +430,7 @@ static inline __attribute__((always_inline)) real mean_of_slices(Frame frame, Pa
 // All slices of a row of pixels that is not background alone. (Not `restrict`: oclgrind does not know what Clang makes of it in an inlined
 // function.)
 static inline __attribute__((always_inline)) void search_around(Frame frame, Params params, DepthLayers layers,
-                                                                Search search, COEFFICIENTS, global const float* depth,
+                                                                Search search, TABLE coefficients, global const float* depth,
                                                                 global const float* normal_x,
                                                                 global const float* normal_y,
                                                                 global const float* normal_z, Sum* sum,

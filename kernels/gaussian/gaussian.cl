@@ -33,8 +33,9 @@ static inline scalar weight_of(int k, scalar sigma) {
   return exp_of_minus((scalar)0.5 * t * t);
 }
 
-kernel void gaussian_horizontal(Frame frame, GaussianParams params, PLANE source, PLANE depth,
-                                WANTED_ARGUMENT PLANE_OUT sum, PLANE_OUT weight) {
+// in : source, depth; wanted
+// out: sum, weight
+kernel void gaussian_horizontal(ARGUMENTS) {
   SKIP_UNWANTED(frame, )
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const integer x = FIRST_X + IOTA;
@@ -53,8 +54,9 @@ kernel void gaussian_horizontal(Frame frame, GaussianParams params, PLANE source
   store(weights, weight, here);
 }
 
-kernel void gaussian_vertical(Frame frame, GaussianParams params, PLANE sum, PLANE weight, PLANE depth,
-                              WANTED_ARGUMENT PLANE_OUT result) {
+// in : sum, weight, depth; wanted
+// out: result
+kernel void gaussian_vertical(ARGUMENTS) {
   const int y = ROW_Y, here = index_of(frame, FIRST_X, y);
   SKIP_UNWANTED(frame, store((real)(1), result, here))
   const mask background = is_background(load(depth, here));

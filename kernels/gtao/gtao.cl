@@ -16,9 +16,9 @@
 //    COMPENSATED, STEREO, ESTIMATE_MONO, WITH_HALF_OCCLUSION
 #include "gtao/closed_slices.h"
 
-kernel void gtao_estimate(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                          OCCLUDERS_ARGUMENT ROUGHNESS_ARGUMENT WANTED_ARGUMENT PLANE_OUT ao_raw
-                              OPEN_DIRECTIONS_ARGUMENTS) {
+// in : depth, normal; roughness, wanted, occluders
+// out: ao_raw; bent_normal, cone, specular_occlusion_raw, lobe_weight
+kernel void gtao_estimate(ARGUMENTS) {
   SKIP_UNWANTED(frame, store((real)(1), ao_raw, here); STORE_NO_DIRECTIONS)
   const DepthLayers layers = LAYERS_FROM(frame, depth);
   Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);

@@ -16,21 +16,18 @@
 // -D as gtao.cl, with LIGHT
 #include "gtao/closed_slices.h"
 
-kernel void pack_sources(Frame frame, Params params, PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANE color_r,
-                         PLANE color_g, PLANE color_b, PLANE_OUT sources) {
+// in : normal, color
+// out: sources
+kernel void pack_sources(ARGUMENTS) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const real3 color = bounded_radiance(load3(color_r, color_g, color_b, here), params.brightest);
   store_light_source(color, load3(normal_x, normal_y, normal_z, here), sources, here);
 }
 
 #ifdef LIGHT_R_LAYERS
-#define SOURCES_ARGUMENT                                                                                      \
-  OCCLUDERS_ARGUMENT PLANE light_r, PLANE light_g, PLANE light_b, PLANE light_normal_x, PLANE light_normal_y, \
-      PLANE light_normal_z,
 #define LIGHT_SOURCES \
   { light_r, light_g, light_b, light_normal_x, light_normal_y, light_normal_z, params.brightest }
 #else
-#define SOURCES_ARGUMENT PLANE sources, OCCLUDERS_ARGUMENT
 #define LIGHT_SOURCES \
   { sources }
 #endif
@@ -40,10 +37,10 @@ static inline void store_light(real3 light, mask counts, PLANE_OUT r, PLANE_OUT 
   store(choose(counts, light.z, (real)(0)), b, here);
 }
 
-kernel void indirect_estimate(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                              SOURCES_ARGUMENT ROUGHNESS_ARGUMENT WANTED_ARGUMENT PLANE_OUT indirect_raw_r,
-                              PLANE_OUT indirect_raw_g,
-                              PLANE_OUT indirect_raw_b AO_RAW_ARGUMENT OPEN_DIRECTIONS_ARGUMENTS) {
+// in : depth, normal; sources, occluders, light_r, light_g, light_b, light_normal_x, light_normal_y, light_normal_z,
+//      roughness, wanted
+// out: indirect_raw; ao_raw, bent_normal, cone, specular_occlusion_raw, lobe_weight
+kernel void indirect_estimate(ARGUMENTS) {
   SKIP_UNWANTED(frame, store((real)(0), indirect_raw_r, here); store((real)(0), indirect_raw_g, here);
                 store((real)(0), indirect_raw_b, here); STORE_NO_AO_RAW STORE_NO_DIRECTIONS)
   const DepthLayers layers = LAYERS_FROM(frame, depth);

@@ -76,8 +76,9 @@ static inline real open_of(Params params, real sum) {
   return ao;
 }
 
-kernel void hbao_plus_estimate(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                               OCCLUDERS_ARGUMENT WANTED_ARGUMENT PLANE_OUT ao_raw) {
+// in : depth, normal; occluders, wanted
+// out: ao_raw
+kernel void hbao_plus_estimate(ARGUMENTS) {
   SKIP_UNWANTED(frame, store((real)(1), ao_raw, here))
   const DepthLayers layers = LAYERS_FROM(frame, depth);
   Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
@@ -127,9 +128,9 @@ static inline __attribute__((always_inline)) real sum_around(Frame f, Params par
 
 #if MULTIVIEW
 // Algorithm 3: the result of the view that occludes more.
-kernel void hbao_plus_other_view(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x,
-                                 PLANE normal_y, PLANE normal_z, PLANE own, PLANE other_depth, PLANE occluders,
-                                 PLANE_OUT ao_raw) {
+// in : depth, normal, own, other_depth, occluders
+// out: ao_raw
+kernel void hbao_plus_other_view(ARGUMENTS) {
   const Frame other = neighbour.frame;
   const Receiver here = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   const Projection there =
@@ -196,9 +197,9 @@ static inline real open_to_both(Frame frame, Neighbour neighbour, Params params,
   return open_of(params, sum);
 }
 
-kernel void hbao_plus_stereo(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x,
-                             PLANE normal_y, PLANE normal_z, OCCLUDERS_ARGUMENT PLANE other_depth,
-                             OTHER_OCCLUDERS_ARGUMENT HALF_OCCLUDED_ARGUMENT PLANE_OUT ao_raw) {
+// in : depth, normal, other_depth; other_half_occluded, occluders, other_occluders
+// out: ao_raw
+kernel void hbao_plus_stereo(ARGUMENTS) {
   const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   real open = (real)(1);
   if (ANY(!r.point.background))
@@ -209,9 +210,9 @@ kernel void hbao_plus_stereo(Frame frame, Neighbour neighbour, Params params, PL
 }
 
 // hbao_plus_stereo for the pixels of a list.
-kernel void hbao_plus_stereo_list(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x,
-                                  PLANE normal_y, PLANE normal_z, OCCLUDERS_ARGUMENT PIXEL_LIST newly_visible,
-                                  PLANE other_depth, OTHER_OCCLUDERS_ARGUMENT PLANE_OUT ao_raw) {
+// in : depth, normal, newly_visible, other_depth; occluders, other_occluders
+// out: ao_raw
+kernel void hbao_plus_stereo_list(ARGUMENTS) {
   integer index;
   if (!pixels_of_item(newly_visible, frame, &index)) return;
   const Receiver r =

@@ -6,11 +6,9 @@
 #include "shared/filter/subsample.h"
 #include "shared/sampling/cells.h"
 
-kernel void lightfield_subsample(Frame frame, Frame other, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
-                                 PLANE normal_z, PLANE position_x, PLANE position_y, PLANE position_z,
-                                 PLANE_OUT low_depth, PLANE_OUT low_normal_x, PLANE_OUT low_normal_y,
-                                 PLANE_OUT low_normal_z, PLANE_OUT low_position_x, PLANE_OUT low_position_y,
-                                 PLANE_OUT low_position_z) {
+// in : depth, normal, position
+// out: low_depth, low_normal, low_position
+kernel void lightfield_subsample(ARGUMENTS) {
   subsample_surface(frame, other, depth, normal_x, normal_y, normal_z, low_depth, low_normal_x, low_normal_y,
                     low_normal_z);
   subsample_vector(frame, other, position_x, position_y, position_z, low_position_x, low_position_y, low_position_z);
@@ -39,9 +37,9 @@ static inline __attribute__((always_inline)) real something_rises(Frame f, Param
   return choose(rises & !s->point.background, (real)(1), (real)(0));
 }
 
-kernel void lightfield_find(Frame frame, PROJECTIONS projections, Params params, PLANE depth, PLANE normal_x,
-                            PLANE normal_y, PLANE normal_z, PLANE position_x, PLANE position_y, PLANE position_z,
-                            PLANE_OUT found) {
+// in : depth, normal, position
+// out: found
+kernel void lightfield_find(ARGUMENTS) {
   const Surfaces planes = surfaces_of(depth, position_x, position_y, position_z);
   const Spot s = spot_in_row(frame, projections, planes, normal_x, normal_y, normal_z);
   real rises = 0;

@@ -43,7 +43,6 @@ static inline real open_share(Frame f, PROJECTIONS p, Params params, Surfaces pl
   return 1 - sum * (params.strength * 2 / (DIRECTIONS * STEPS));
 }
 
-#define POINTS_ARGUMENT
 #define OPEN_SHARE(f, p, params, planes, spot) open_share(f, p, params, planes, spot)
 
 #endif

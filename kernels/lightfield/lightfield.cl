@@ -3,9 +3,9 @@
 // the map from points to pixels is used (Algorithm 2; shared/both/projection.h). With a camera's map, the results are `ssao` and
 // `hbao+`.
 //
-// lightfield_ssao_estimate       share of the points in a ball around the pixel's point that lie behind what the image shows; of
-//                                several radii (section 6, after Hoang, Low 2010) the one that takes most
-// lightfield_hbao_plus_estimate  mean obscurance over directions x steps in the image
+// lightfield_estimate: with ESTIMATE 1 the share of the points in a ball around the pixel's point that lie behind what the image
+//   shows, of several radii (section 6, after Hoang, Low 2010) the one that takes most; with 2 the mean obscurance over directions
+//   x steps in the image
 // in : depth     planar distance, scene units, +inf = background
 //      normal    unit, view space
 //      position  scene units, the world's axes
@@ -29,10 +29,8 @@
 #include "shared/sampling/fan.h"
 #endif
 #if ESTIMATE == 1
-#define ESTIMATE_NAME lightfield_ssao_estimate
 #include "lightfield/ssao.h"
 #elif ESTIMATE == 2
-#define ESTIMATE_NAME lightfield_hbao_plus_estimate
 #include "lightfield/hbao_plus.h"
 #else
 #include "lightfield/find.h"
@@ -46,9 +44,9 @@ static inline real open_or_background(const Spot* s, real open) {
   return choose(s->point.background, (real)(1), smaller(larger(open, (real)(0)), (real)(1)));
 }
 
-kernel void ESTIMATE_NAME(Frame frame, PROJECTIONS projections, Params params, POINTS_ARGUMENT PLANE depth,
-                          PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANE position_x, PLANE position_y,
-                          PLANE position_z, WANTED_ARGUMENT PLANE_OUT ao_raw) {
+// in : depth, normal, position; wanted, points
+// out: ao_raw
+kernel void lightfield_estimate(ARGUMENTS) {
   SKIP_UNWANTED(frame, store((real)(1), ao_raw, here))
   const Surfaces planes = surfaces_of(depth, position_x, position_y, position_z);
   Spot s = spot_in_row(frame, projections, planes, normal_x, normal_y, normal_z);
@@ -59,9 +57,9 @@ kernel void ESTIMATE_NAME(Frame frame, PROJECTIONS projections, Params params, P
 }
 
 #if REUSE
-kernel void JOIN(ESTIMATE_NAME, _list)(Frame frame, PROJECTIONS projections, Params params, POINTS_ARGUMENT PLANE depth,
-                                       PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANE position_x,
-                                       PLANE position_y, PLANE position_z, PIXEL_LIST newly_visible, PLANE_OUT ao_raw) {
+// in : depth, normal, position, newly_visible; points
+// out: ao_raw
+kernel void lightfield_estimate_list(ARGUMENTS) {
   integer index;
   if (!pixels_of_item(newly_visible, frame, &index)) return;
   const Surfaces planes = surfaces_of(depth, position_x, position_y, position_z);

@@ -12,8 +12,6 @@
 #include "shared/both/hash.h"
 #include "shared/sampling/ball.h"
 
-#define TABLE constant float*
-
 // A pixel's own random bits.
 static inline natural choice_of(natural column, natural row, int seed) {
 #if OWN_POINTS && JITTER

@@ -59,17 +59,17 @@ static inline real found_in(Frame f, PROJECTIONS own, PROJECTIONS key, Params pa
 }
 
 // Copies a key view's AO, which was computed without the mask, for the pixels that the mask wants.
-kernel void lightfield_key(Frame frame, Params params, PLANE ao_of_key, WANTED_ARGUMENT PLANE_OUT ao_raw) {
+// in : ao_of_key
+// out: ao_raw
+kernel void lightfield_key(ARGUMENTS) {
   SKIP_UNWANTED(frame, store((real)(1), ao_raw, here))
   const int here = index_of(frame, FIRST_X, ROW_Y);
   store(choose(is_wanted, load(ao_of_key, here), (real)(1)), ao_raw, here);
 }
 
-kernel void lightfield_reuse(Frame frame, PROJECTIONS projections, Params params, PLANE depth, PLANE position_x,
-                             PLANE position_y, PLANE position_z, PLANE key_depth, PLANE key_position_x,
-                             PLANE key_position_y, PLANE key_position_z, PLANE key_ao, PLANE far_depth,
-                             PLANE far_position_x, PLANE far_position_y, PLANE far_position_z, PLANE far_ao,
-                             WANTED_ARGUMENT PLANE_OUT ao_raw, PIXEL_LIST_OUT newly_visible) {
+// in : depth, position, key_depth, key_position, key_ao, far_depth, far_position, far_ao
+// out: ao_raw, newly_visible
+kernel void lightfield_reuse(ARGUMENTS) {
   SKIP_UNWANTED(frame, store((real)(1), ao_raw, here))
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const real x = to_real(FIRST_X + IOTA), y = (real)(ROW_Y);

@@ -162,7 +162,6 @@ static inline real open_share(Frame f, PROJECTIONS p, Params params, TABLE point
   return 1 - most * ((scalar)1 / SAMPLES);
 }
 
-#define POINTS_ARGUMENT TABLE points,
 #define OPEN_SHARE(f, p, params, planes, spot) open_share(f, p, params, points, planes, spot)
 
 #endif

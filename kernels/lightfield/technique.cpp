@@ -93,7 +93,7 @@ std::vector<Pass> with_reuse(Pass estimate, const Params& p) {
 }
 
 std::vector<Pass> ssao_passes(const LightfieldSsaoParams& p) {
-  Pass estimate = ambient_occlusion_estimate(p, "lightfield_ssao_estimate",
+  Pass estimate = ambient_occlusion_estimate(p, "lightfield_estimate",
                                              {{"ESTIMATE", 1},
                                               {"SAMPLES", p.samples},
                                               {"RADII", p.radii},
@@ -106,7 +106,7 @@ std::vector<Pass> ssao_passes(const LightfieldSsaoParams& p) {
 
 std::vector<Pass> hbao_plus_passes(const LightfieldHbaoPlusParams& p) {
   return with_reuse(
-      ambient_occlusion_estimate(p, "lightfield_hbao_plus_estimate",
+      ambient_occlusion_estimate(p, "lightfield_estimate",
                                  {{"ESTIMATE", 2},
                                   {"DIRECTIONS", p.directions},
                                   {"STEPS", p.steps},

@@ -25,33 +25,29 @@ static inline void store_word(uint word, WANTED_OUT wanted, Frame f, int k) {
 
 #ifdef CELL
 #if CELL == 1
-#define TWO_FRAMES Frame frame
 #define SOURCE_AT(x) load(source, index_of(frame, x, ROW_Y))
 #else
-#define TWO_FRAMES Frame frame, Frame other
 // Lanes beyond the image read its last pixel.
 #define SOURCE_AT(x) \
   gather(source, index_of(other, 0, ROW_Y / CELL) + min((x) + IOTA, (integer)(frame.width - 1)) / CELL)
 #endif
 
 #if WITH_ASKED
-#define ASKED_ARGUMENT , WANTED asked
 #define ASKED_WORD ((global const uint*)asked)[index_of(frame, k, ROW_Y)]
 #else
-#define ASKED_ARGUMENT
 #define ASKED_WORD 0xffffffffu
 #endif
 #if WITH_REST
-#define REST_ARGUMENT , WANTED_OUT rest
 #define STORE_REST(word) store_word(word, rest, frame, k)
 #define WHOLE_ROWS(word) (((word)&0xffffu ? 0xffffu : 0u) | ((word)&0xffff0000u ? 0xffff0000u : 0u))
 #else
 #define WHOLE_ROWS(word) (word)
-#define REST_ARGUMENT
 #define STORE_REST(word)
 #endif
 
-kernel void mask_bits(TWO_FRAMES, PLANE source ASKED_ARGUMENT, WANTED_OUT wanted REST_ARGUMENT) {
+// in : source; asked
+// out: wanted; rest
+kernel void mask_bits(ARGUMENTS) {
   RETURN_UNLESS_A_WORD_BEGINS(frame)
   uint word = 0;
   for (int i = 0; i < 32; i += LANES) word |= bit_of_each_lane(SOURCE_AT(32 * k + i) > 0) << i;
@@ -62,7 +58,9 @@ kernel void mask_bits(TWO_FRAMES, PLANE source ASKED_ARGUMENT, WANTED_OUT wanted
 #endif
 
 #ifdef SCALE
-kernel void mask_reduced(Frame frame, Frame other, WANTED whole, WANTED_OUT wanted) {
+// in : whole
+// out: wanted
+kernel void mask_reduced(ARGUMENTS) {
   RETURN_UNLESS_A_WORD_BEGINS(frame)
   const int each = 32 / SCALE;
   uint word = 0;
@@ -88,7 +86,9 @@ static inline natural words_at(WANTED row, Frame f, int k) {
 }
 
 // A work-item computes LANES words.
-kernel void mask_grown(Frame frame, WANTED wanted, WANTED_OUT grown) {
+// in : wanted
+// out: grown
+kernel void mask_grown(ARGUMENTS) {
   if (FIRST_X >= words_of_row(frame)) return;
   natural before = 0, word = 0, after = 0;
   for (int dy = -REACH_Y; dy <= REACH_Y; ++dy) {

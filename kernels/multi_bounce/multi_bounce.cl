@@ -31,8 +31,9 @@ static inline real with_bounces(real ao, real albedo) {
 #endif
 }
 
-kernel void multi_bounce(Frame frame, MultiBounceParams params, PLANE ao, PLANE albedo_r, PLANE albedo_g,
-                         PLANE albedo_b, PLANE_OUT bounces_r, PLANE_OUT bounces_g, PLANE_OUT bounces_b) {
+// in : ao, albedo
+// out: bounces
+kernel void multi_bounce(ARGUMENTS) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const real open = share(load(ao, here));
   store(with_bounces(open, share(load(albedo_r, here))), bounces_r, here);

@@ -19,9 +19,9 @@
 #include "shared/lanes/wanted.h"
 #include "shared/sampling/ambient_occlusion.h"
 
-kernel void multires_subsample(Frame frame, Frame other, MultiresParams params, PLANE depth, PLANE normal_x,
-                               PLANE normal_y, PLANE normal_z, PLANE_OUT low_depth, PLANE_OUT low_normal_x,
-                               PLANE_OUT low_normal_y, PLANE_OUT low_normal_z) {
+// in : depth, normal
+// out: low_depth, low_normal
+kernel void multires_subsample(ARGUMENTS) {
   subsample_surface(frame, other, depth, normal_x, normal_y, normal_z, low_depth, low_normal_x, low_normal_y,
                     low_normal_z);
 }
@@ -56,7 +56,7 @@ static inline Ring ring_of(Reach reach, scalar most_pixels) {
 
 // Samples at even steps from the inner to the outer edge of the ring, the direction turned by the golden angle from sample to
 // sample: any run of samples is spread over all directions.
-static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame, MultiresParams params,
+static inline __attribute__((always_inline)) real sum_of_obscurance(Frame frame, Params params,
                                                                     global const float* depth, Receiver r, Ring ring,
                                                                     int within) {
   const scalar turn_cosine = (scalar)-0.7373688780783197, turn_sine = (scalar)0.6754902942615238;
@@ -95,30 +95,9 @@ static inline real levels_within(real pixels, scalar most_pixels) {
   return count;
 }
 
-#if COARSER
-#define TWO_FRAMES Frame frame, Frame other
-#define COARSER_ARGUMENTS \
-  PLANE low_most, COARSER_SUM PLANE low_depth, PLANE low_normal_x, PLANE low_normal_y, PLANE low_normal_z,
-#else
-#define TWO_FRAMES Frame frame
-#define COARSER_ARGUMENTS
-#endif
-#if WITH_MEAN
-#define COARSER_SUM PLANE low_sum,
-#else
-#define COARSER_SUM
-#endif
-
-kernel void multires_estimate(TWO_FRAMES, MultiresParams params, COARSER_ARGUMENTS PLANE depth, PLANE normal_x,
-                              PLANE normal_y, PLANE normal_z,
-#if LEVEL == 0
-                              WANTED_ARGUMENT PLANE_OUT ao_raw
-#elif WITH_MEAN
-                              PLANE_OUT most_found, PLANE_OUT sum_found
-#else
-                              PLANE_OUT most_found
-#endif
-) {
+// in : depth, normal; low_most, low_depth, low_normal, low_sum, wanted
+// out: ; most_found, ao_raw, sum_found
+kernel void multires_estimate(ARGUMENTS) {
 #if LEVEL == 0
   SKIP_UNWANTED(frame, store((real)(1), ao_raw, here))
 #endif

@@ -22,7 +22,9 @@ static inline real slope(Frame f, Anchor p, real own, real ahead, real behind, r
   return smaller(larger(steep, (real)(-STEEPEST)), (real)(STEEPEST));
 }
 
-kernel void normals(Frame frame, PLANE depth, PLANE_OUT normal_x, PLANE_OUT normal_y, PLANE_OUT normal_z) {
+// in : depth
+// out: normal
+kernel void normals(ARGUMENTS) {
   const int x0 = FIRST_X, y = ROW_Y, here = index_of(frame, x0, y);
   const integer x = x0 + IOTA;
   const real z = load(depth, here);

@@ -15,8 +15,9 @@
 static inline mask is_near_others(real count, scalar least_count) { return (count >= least_count) | (count < 0); }
 
 #if STAND_ALONE
-kernel void outline_ao(Frame frame, OutlineAoParams params, PLANE outline_count, PLANE depth,
-                       WANTED_ARGUMENT PLANE_OUT result) {
+// in : outline_count, depth; wanted
+// out: result
+kernel void outline_ao(ARGUMENTS) {
   SKIP_UNWANTED(frame, store((real)(1), result, here))
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const mask is_corner = is_near_others(load(outline_count, here), params.least_count);
@@ -24,7 +25,9 @@ kernel void outline_ao(Frame frame, OutlineAoParams params, PLANE outline_count,
   store(choose(is_background(load(depth, here)) | !is_wanted, (real)(1), ao), result, here);
 }
 #else
-kernel void outline_mask(Frame frame, OutlineMaskParams params, PLANE outline_count, PLANE_OUT result) {
+// in : outline_count
+// out: result
+kernel void outline_mask(ARGUMENTS) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const mask is_corner = is_near_others(load(outline_count, here), params.least_count);
   store(choose(is_corner, (real)(1), (real)(0)), result, here);

@@ -4,8 +4,9 @@
 // out: position  scene units, the world's axes, relative to the camera; 0 on background
 #include "shared/both/projection.h"
 
-kernel void positions(Frame frame, PROJECTIONS projections, PLANE depth, PLANE_OUT position_x, PLANE_OUT position_y,
-                      PLANE_OUT position_z) {
+// in : depth
+// out: position
+kernel void positions(ARGUMENTS) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const real z = load(depth, here);
   const mask background = is_background(z);

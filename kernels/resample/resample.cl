@@ -26,26 +26,32 @@ static inline void subsample_plane(Frame frame, Frame other, PLANE source, PLANE
   store(gather(source + from, IOTA * (integer)(SCALE)), result, to);
 }
 
-kernel void subsample(Frame frame, Frame other, ResampleParams params, PLANE source, PLANE_OUT result) {
+// in : source
+// out: result
+kernel void subsample(ARGUMENTS) {
   subsample_plane(frame, other, source, result);
 }
 
-kernel void subsample_vector(Frame frame, Frame other, ResampleParams params, PLANE source_x, PLANE source_y,
-                             PLANE source_z, PLANE_OUT result_x, PLANE_OUT result_y, PLANE_OUT result_z) {
+// in : source
+// out: result
+kernel void subsample_vector(ARGUMENTS) {
   subsample_plane(frame, other, source_x, result_x);
   subsample_plane(frame, other, source_y, result_y);
   subsample_plane(frame, other, source_z, result_z);
 }
 
-kernel void subsample_color(Frame frame, Frame other, ResampleParams params, PLANE source_r, PLANE source_g,
-                            PLANE source_b, PLANE_OUT result_r, PLANE_OUT result_g, PLANE_OUT result_b) {
+// in : source
+// out: result
+kernel void subsample_color(ARGUMENTS) {
   subsample_plane(frame, other, source_r, result_r);
   subsample_plane(frame, other, source_g, result_g);
   subsample_plane(frame, other, source_b, result_b);
 }
 
 #ifdef SOURCE_LAYERS
-kernel void subsample_stack(Frame frame, Frame other, ResampleParams params, PLANE source, PLANE_OUT result) {
+// in : source
+// out: result
+kernel void subsample_stack(ARGUMENTS) {
   const int from = index_of(other, FIRST_X * SCALE, ROW_Y * SCALE), to = index_of(frame, FIRST_X, ROW_Y);
   for (int k = 0; k < SOURCE_LAYERS; ++k) {
     const real depth = gather(layer_of(source, other, k) + from, IOTA * (integer)(SCALE));
@@ -55,9 +61,9 @@ kernel void subsample_stack(Frame frame, Frame other, ResampleParams params, PLA
 #endif
 
 #ifdef OUTSIDE
-kernel void joint_upsample(Frame frame, Frame other, ResampleParams params, PLANE source, PLANE low_depth,
-                           PLANE low_normal_x, PLANE low_normal_y, PLANE low_normal_z, PLANE depth, PLANE normal_x,
-                           PLANE normal_y, PLANE normal_z, WANTED_ARGUMENT PLANE_OUT result) {
+// in : source, low_depth, low_normal, depth, normal; wanted
+// out: result
+kernel void joint_upsample(ARGUMENTS) {
   SKIP_UNWANTED(frame, store((real)(OUTSIDE), result, here))
   const Site s = site_at(frame, other, params.depth_tolerance * params.radius, params.normal_tolerance, depth, normal_x,
                          normal_y, normal_z);
@@ -69,11 +75,9 @@ kernel void joint_upsample(Frame frame, Frame other, ResampleParams params, PLAN
 #endif
 
 #if TWO_VIEWS
-kernel void joint_upsample_of_both(Frame frame, Frame other, Neighbour neighbour, ResampleParams params, PLANES(source),
-                                   PLANE low_depth, PLANE low_normal_x, PLANE low_normal_y, PLANE low_normal_z,
-                                   PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANES(other_source),
-                                   PLANE other_depth, PLANE other_normal_x, PLANE other_normal_y, PLANE other_normal_z,
-                                   PLANES_OUT(result)) {
+// in : source, low_depth, low_normal, depth, normal, other_source, other_depth, other_normal
+// out: result
+kernel void joint_upsample_of_both(ARGUMENTS) {
   const Sources sources = SOURCE_PLANES(source), other_sources = SOURCE_PLANES(other_source);
   const Results results = RESULT_PLANES(result);
   const scalar distance = params.depth_tolerance * params.radius;
@@ -103,10 +107,9 @@ kernel void joint_upsample_of_both(Frame frame, Frame other, Neighbour neighbour
 }
 #endif
 
-kernel void joint_upsample_vector(Frame frame, Frame other, ResampleParams params, PLANE source_x, PLANE source_y,
-                                  PLANE source_z, PLANE low_depth, PLANE low_normal_x, PLANE low_normal_y,
-                                  PLANE low_normal_z, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                                  WANTED_ARGUMENT PLANE_OUT result_x, PLANE_OUT result_y, PLANE_OUT result_z) {
+// in : source, low_depth, low_normal, depth, normal; wanted
+// out: result
+kernel void joint_upsample_vector(ARGUMENTS) {
   SKIP_UNWANTED(frame, store((real)(0), result_x, here); store((real)(0), result_y, here);
                 store((real)(0), result_z, here))
   const Site s = site_at(frame, other, params.depth_tolerance * params.radius, params.normal_tolerance, depth, normal_x,
@@ -134,10 +137,9 @@ static inline void upsample_share(Weights w, Site s, mask known, PLANE source, P
   store(choose(known, mean_up_to_one(weighted(w, s, source), total), (real)(OUTSIDE)), result, s.here);
 }
 
-kernel void joint_upsample_color(Frame frame, Frame other, ResampleParams params, PLANE source_r, PLANE source_g,
-                                 PLANE source_b, PLANE low_depth, PLANE low_normal_x, PLANE low_normal_y,
-                                 PLANE low_normal_z, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                                 WANTED_ARGUMENT PLANE_OUT result_r, PLANE_OUT result_g, PLANE_OUT result_b) {
+// in : source, low_depth, low_normal, depth, normal; wanted
+// out: result
+kernel void joint_upsample_color(ARGUMENTS) {
   SKIP_UNWANTED(frame, store((real)(OUTSIDE), result_r, here); store((real)(OUTSIDE), result_g, here);
                 store((real)(OUTSIDE), result_b, here))
   const Site s = site_at(frame, other, params.depth_tolerance * params.radius, params.normal_tolerance, depth, normal_x,
@@ -149,11 +151,9 @@ kernel void joint_upsample_color(Frame frame, Frame other, ResampleParams params
   upsample_plane(w, s, known, source_b, result_b);
 }
 
-kernel void joint_upsample_color_alpha(Frame frame, Frame other, ResampleParams params, PLANE source_r, PLANE source_g,
-                                       PLANE source_b, PLANE source_a, PLANE low_depth, PLANE low_normal_x,
-                                       PLANE low_normal_y, PLANE low_normal_z, PLANE depth, PLANE normal_x,
-                                       PLANE normal_y, PLANE normal_z, WANTED_ARGUMENT PLANE_OUT result_r,
-                                       PLANE_OUT result_g, PLANE_OUT result_b, PLANE_OUT result_a) {
+// in : source, low_depth, low_normal, depth, normal; wanted
+// out: result
+kernel void joint_upsample_color_alpha(ARGUMENTS) {
   SKIP_UNWANTED(frame, store((real)(OUTSIDE), result_r, here); store((real)(OUTSIDE), result_g, here);
                 store((real)(OUTSIDE), result_b, here); store((real)(OUTSIDE), result_a, here))
   const Site s = site_at(frame, other, params.depth_tolerance * params.radius, params.normal_tolerance, depth, normal_x,

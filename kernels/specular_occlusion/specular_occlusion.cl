@@ -40,8 +40,9 @@ static inline void store_share(Glossy g, real open, PLANE_OUT result, int here) 
   store(choose(g.background, (real)(1), smaller(larger(open, (real)(0)), (real)(1))), result, here);
 }
 
-kernel void specular_occlusion_from_ao(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
-                                       PLANE normal_z, PLANE roughness, PLANE ao, PLANE_OUT result) {
+// in : depth, normal, roughness, ao
+// out: result
+kernel void specular_occlusion_from_ao(ARGUMENTS) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const Glossy g = glossy_at(frame, here, depth, normal_x, normal_y, normal_z, roughness);
   const real open = clamp(load(ao, here), (real)(0), (real)(1));
@@ -51,9 +52,9 @@ kernel void specular_occlusion_from_ao(Frame frame, Params params, PLANE depth, 
 // The narrowest lobe whose cap float can tell from a point.
 #define NARROWEST ((scalar)0.03f)
 
-kernel void specular_occlusion_from_cone(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
-                                         PLANE normal_z, PLANE roughness, PLANE bent_normal_x, PLANE bent_normal_y,
-                                         PLANE bent_normal_z, PLANE cone, PLANE_OUT result) {
+// in : depth, normal, roughness, bent_normal, cone
+// out: result
+kernel void specular_occlusion_from_cone(ARGUMENTS) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const Glossy g = glossy_at(frame, here, depth, normal_x, normal_y, normal_z, roughness);
   const real3 bent = load3(bent_normal_x, bent_normal_y, bent_normal_z, here);
@@ -105,12 +106,9 @@ static inline TangentPlane plane_at(Frame frame, Params params, Glossy g, int he
                           params.depth_tolerance * params.radius, params.normal_tolerance);
 }
 
-kernel void specular_occlusion_rows(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
-                                    PLANE normal_z, PLANE roughness, PLANE open,
-#if WEIGHTED
-                                    PLANE lobe_weight,
-#endif
-                                    PLANE_OUT sum, PLANE_OUT weight) {
+// in : depth, normal, roughness, open; lobe_weight
+// out: sum, weight
+kernel void specular_occlusion_rows(ARGUMENTS) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const Glossy g = glossy_at(frame, here, depth, normal_x, normal_y, normal_z, roughness);
   const TangentPlane plane = plane_at(frame, params, g, here, depth);
@@ -129,8 +127,9 @@ kernel void specular_occlusion_rows(Frame frame, Params params, PLANE depth, PLA
   store(sums.weight, weight, here);
 }
 
-kernel void specular_occlusion_columns(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
-                                       PLANE normal_z, PLANE roughness, PLANE sum, PLANE weight, PLANE_OUT result) {
+// in : depth, normal, roughness, sum, weight
+// out: result
+kernel void specular_occlusion_columns(ARGUMENTS) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const Glossy g = glossy_at(frame, here, depth, normal_x, normal_y, normal_z, roughness);
   const TangentPlane plane = plane_at(frame, params, g, here, depth);

@@ -84,8 +84,9 @@ static inline __attribute__((always_inline)) real occluded_points(Frame frame, P
   return sum;
 }
 
-kernel void ssao_estimate(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                          OCCLUDERS_ARGUMENT WANTED_ARGUMENT PLANE_OUT ao_raw OPEN_DIRECTIONS_ARGUMENTS) {
+// in : depth, normal; occluders, wanted
+// out: ao_raw; bent_normal, cone
+kernel void ssao_estimate(ARGUMENTS) {
   SKIP_UNWANTED(frame, store((real)(1), ao_raw, here); STORE_NO_DIRECTIONS)
   const DepthLayers layers = LAYERS_FROM(frame, depth);
   Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);

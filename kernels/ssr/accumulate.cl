@@ -15,12 +15,9 @@
 // A reflection moves as its virtual image does, if what it shows stands still; otherwise, and on rough surfaces, it moves with the
 // surface. Of these two positions in the frame before, the one counts whose value is nearer to the present neighbours. Mirrors have
 // no noise: they use this frame alone.
-kernel void ssr_accumulate(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
-                           PLANE normal_z, PLANE roughness, PLANE reflectance_r, PLANE reflectance_g,
-                           PLANE reflectance_b, PLANE motion_x, PLANE motion_y, PLANE reach, PLANE now_r, PLANE now_g,
-                           PLANE now_b, PLANE now_a, PLANE history_r, PLANE history_g, PLANE history_b, PLANE history_a,
-                           PLANE history_depth, PLANE history_frames, WANTED_ARGUMENT PLANE_OUT reflection_r,
-                           PLANE_OUT reflection_g, PLANE_OUT reflection_b, PLANE_OUT reflection_a, PLANE_OUT frames) {
+// in : depth, normal, roughness, reflectance, motion, reach, now, history, history_depth, history_frames; wanted
+// out: reflection, frames
+kernel void ssr_accumulate(ARGUMENTS) {
   SKIP_UNWANTED(frame, no_reflection(reflection_r, reflection_g, reflection_b, reflection_a, here);
                 store((real)(0), frames, here))
   const int here = index_of(frame, FIRST_X, ROW_Y);

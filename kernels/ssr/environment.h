@@ -8,8 +8,6 @@
 #ifdef ENVIRONMENT_SIZE
 #include "shared/rays/environment.h"
 
-#define ENVIRONMENT_ARGUMENT PLANE environment_light,
-
 // A ray of a rough surface stands for a cone of directions, as large as there are few rays that a pixel's mean is made of (Krivanek,
 // Colbert 2008). `density`: of the ray, +inf for a mirror's.
 static inline real3 seen_by_ray(PLANE light, real3 direction, real density, mask counts) {
@@ -31,7 +29,6 @@ static inline real3 seen_by_rough_surface(PLANE light, Reflector s, mask counts)
   return light_on_surface(light, out_of_frame(s, main));
 }
 #else
-#define ENVIRONMENT_ARGUMENT
 static inline real3 even_environment(Params params) {
   return make3((real)(params.environment_r), (real)(params.environment_g), (real)(params.environment_b));
 }

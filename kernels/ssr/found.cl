@@ -7,7 +7,9 @@
 #include "ssr/ray.h"
 
 // 1 where a surface's mirror ray meets something, or where the surface is so rough that this ray alone does not tell.
-kernel void ssr_found(Frame frame, Params params, PLANE roughness, PLANE ray_density, PLANE met, PLANE_OUT found) {
+// in : roughness, ray_density, met
+// out: found
+kernel void ssr_found(ARGUMENTS) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const real rough = load(roughness, here);
   const mask reflects = load(ray_density, here) > 0;

@@ -10,16 +10,9 @@
 #include "shared/rays/screen_ray.h"
 #include "ssr/params.h"
 
-kernel void ssr_nearness(Frame frame, Params params, PLANE depth,
-#if TRAVERSAL
-                         PLANE back_depth,
-#endif
-                         global float* nearness, PIXEL_LIST_OUT list
-#if TRAVERSAL
-                         ,
-                         global float* farness, PIXEL_LIST_OUT others
-#endif
-) {
+// in : depth; back_depth
+// out: nearness, list; farness, others
+kernel void ssr_nearness(ARGUMENTS) {
   const int here = index_of(frame, FIRST_X, ROW_Y), cell = index_of_tile_row(frame, FIRST_X, ROW_Y);
   const real z = load(depth, here), least = (real)(nearness_of_background(frame));
   const mask is_inside = to_mask(FIRST_X + IOTA < frame.width) & !is_background(z);
@@ -75,7 +68,8 @@ static inline real smaller_of_four(PLANE level, Frame image, int y, int next, in
 }
 
 // `frame`: the level; `other`: the image.
-kernel void ssr_level(Frame frame, Frame other, Params params, global float* nearness, global float* farness) {
+// out: nearness, farness
+kernel void ssr_level(ARGUMENTS) {
   const int below = LEVEL - 1, columns = (other.width + (1 << below) - 1) >> below;
   const int rows = (other.height + (1 << below) - 1) >> below, y = 2 * ROW_Y, next = min(y + 1, rows - 1);
   const int layer = floats_of_layer(other), here = index_of_tile_row(other, FIRST_X, ROW_Y);

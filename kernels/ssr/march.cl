@@ -110,10 +110,8 @@ static inline mask step_on(Frame frame, Params params, Start s, Hierarchy cells,
 }
 
 #if BOTH_DEPTHS
-#define HIERARCHY_ARGUMENT PLANE nearness, PLANE farness,
 #define HIERARCHY hierarchy_of(nearness, farness)
 #else
-#define HIERARCHY_ARGUMENT PLANE nearness,
 #define HIERARCHY hierarchy_of(nearness, nearness)
 #endif
 
@@ -213,21 +211,15 @@ static inline Start start_of_ray(Frame frame, Params params, Rays rays, integer 
 
 // Follows this eye's rays through its own image or, IN_OTHER, through the other's. `met`: what they meet there. `left_at`: steps
 // after which a ray is hidden from this eye, or beyond its image; `others`: the list of these rays.
+// in : depth, normal, nearness, list, ray_x, ray_y, ray_z; farness, back_depth, left_at, other_normal
+// out: met; left_at, others
+kernel void ssr_march(ARGUMENTS) {
 #if IN_OTHER
-kernel void ssr_march(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x, PLANE normal_y,
-                      PLANE normal_z, HIERARCHY_ARGUMENT PIXEL_LIST list, PLANE ray_x, PLANE ray_y, PLANE ray_z,
-                      PLANE left_at, PLANE other_normal_x, PLANE other_normal_y, PLANE other_normal_z, PLANE back_depth,
-                      global float* met) {
   const Frame image = neighbour.frame;
-#elif TRAVERSAL
-kernel void ssr_march(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                      HIERARCHY_ARGUMENT PIXEL_LIST list, PLANE ray_x, PLANE ray_y, PLANE ray_z, PLANE back_depth,
-                      global float* met, global float* left_at, PIXEL_LIST_OUT others) {
-  const Frame image = frame;
 #else
-kernel void ssr_march(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                      HIERARCHY_ARGUMENT PIXEL_LIST list, PLANE ray_x, PLANE ray_y, PLANE ray_z, global float* met) {
   const Frame image = frame;
+#endif
+#if !TRAVERSAL
   global const float* back_depth = 0;
 #endif
   global const int* entries = (global const int*)list;

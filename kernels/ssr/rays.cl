@@ -26,15 +26,9 @@ static inline real3 ray_of(Reflector s, Noise noise, int k, real* density) {
   return exactly_normalised(out_of_frame(s, l));
 }
 
-kernel void ssr_rays(Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                     PLANE roughness, PLANE reflectance_r, PLANE reflectance_g, PLANE reflectance_b,
-                     WANTED_ARGUMENT PIXEL_LIST_OUT list, PLANE_OUT ray_x, PLANE_OUT ray_y, PLANE_OUT ray_z,
-                     PLANE_OUT ray_density, PLANE_OUT met
-#if TRAVERSAL
-                     ,
-                     PLANE_OUT met_in_other
-#endif
-) {
+// in : depth, normal, roughness, reflectance; wanted
+// out: list, ray_x, ray_y, ray_z, ray_density, met; met_in_other
+kernel void ssr_rays(ARGUMENTS) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const Reflector s = reflector_of(frame, params, here, depth, normal_x, normal_y, normal_z, roughness, reflectance_r,
                                    reflectance_g, reflectance_b);

@@ -121,29 +121,11 @@ static inline void take_rays_of_other(Frame frame, Neighbour n, Reflector s, Oth
 }
 #endif
 
-kernel void ssr_resolve(Frame frame,
-#if REPROJECTION
-                        Neighbour neighbour,
-#endif
-                        Params params, ENVIRONMENT_ARGUMENT PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                        PLANE roughness, PLANE reflectance_r, PLANE reflectance_g, PLANE reflectance_b, PLANE ray_x,
-                        PLANE ray_y, PLANE ray_z, PLANE ray_density, PLANE ray_r, PLANE ray_g, PLANE ray_b,
-                        PLANE ray_length, PLANE ray_confidence,
-#if REPROJECTION
-                        PLANE instance, PLANE other_depth, PLANE other_instance, PLANE other_ray_x, PLANE other_ray_y,
-                        PLANE other_ray_z, PLANE other_ray_density, PLANE other_ray_r, PLANE other_ray_g,
-                        PLANE other_ray_b, PLANE other_ray_length, PLANE other_ray_confidence,
-#endif
-#if WITH_SPECULAR_OCCLUSION
-                        PLANE specular_occlusion,
-#endif
-                        WANTED_ARGUMENT PLANE_OUT reflection_r, PLANE_OUT reflection_g, PLANE_OUT reflection_b,
-                        PLANE_OUT reflection_a
-#if TEMPORAL
-                        ,
-                        PLANE_OUT reach
-#endif
-) {
+// in : depth, normal, roughness, reflectance, ray_x, ray_y, ray_z, ray_density, ray_r, ray_g, ray_b, ray_length,
+//      ray_confidence; wanted, instance, other_depth, other_instance, other_ray_x, other_ray_y, other_ray_z,
+//      other_ray_density, other_ray_r, other_ray_g, other_ray_b, other_ray_length, other_ray_confidence
+// out: reflection; reach
+kernel void ssr_resolve(ARGUMENTS) {
   SKIP_UNWANTED(frame, no_reflection(reflection_r, reflection_g, reflection_b, reflection_a, here))
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const Reflector s = reflector_of(frame, params, here, depth, normal_x, normal_y, normal_z, roughness, reflectance_r,

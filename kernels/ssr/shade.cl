@@ -158,25 +158,10 @@ static inline Sight sight_in_other(Frame frame, Neighbour n, Params params, Imag
 }
 #endif
 
-kernel void ssr_see(Frame frame,
-#if TRAVERSAL || FADE
-                    Neighbour neighbour,
-#endif
-                    Params params, ENVIRONMENT_ARGUMENT PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z,
-                    PLANE color_r, PLANE color_g, PLANE color_b, PLANE ray_x, PLANE ray_y, PLANE ray_z,
-                    PLANE ray_density, PLANE met,
-#if TRAVERSAL
-                    PLANE met_in_other, PLANE left_at,
-#endif
-#if TRAVERSAL || FADE
-                    PLANE other_depth, PLANE other_normal_x, PLANE other_normal_y, PLANE other_normal_z,
-                    PLANE other_color_r, PLANE other_color_g, PLANE other_color_b,
-#endif
-#if WITH_SPECULAR_OCCLUSION
-                    PLANE specular_occlusion,
-#endif
-                    PLANE_OUT hit_length, PLANE_OUT ray_r, PLANE_OUT ray_g, PLANE_OUT ray_b, PLANE_OUT ray_length,
-                    PLANE_OUT ray_confidence) {
+// in : depth, normal, color, ray_x, ray_y, ray_z, ray_density, met; met_in_other, left_at, other_depth, other_normal,
+//      other_color
+// out: hit_length, ray_r, ray_g, ray_b, ray_length, ray_confidence
+kernel void ssr_see(ARGUMENTS) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const Image image = image_of(depth, normal_x, normal_y, normal_z, color_r, color_g, color_b);
   const real3 normal = load3(normal_x, normal_y, normal_z, here), up = make3((real)(0), (real)(0), (real)(1));

@@ -9,8 +9,9 @@
 #ifdef COLUMNS
 #include "shared/stereo/filter.h"
 #else
-kernel void stereo_seen_by_both(Frame frame, Neighbour neighbour, StereoVisibilityParams params, PLANE depth,
-                                PLANE other_depth, PLANE_OUT seen_by_both) {
+// in : depth, other_depth
+// out: seen_by_both
+kernel void stereo_seen_by_both(ARGUMENTS) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const mask is_seen = seen_by_both_eyes(frame, neighbour, params.back_check, load(depth, here), other_depth);
   store(choose(is_seen, (real)(1), (real)(0)), seen_by_both, here);

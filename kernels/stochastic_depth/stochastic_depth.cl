@@ -19,8 +19,9 @@ static inline natural subset_of(natural hash, uint alpha) {
 #endif
 }
 
-kernel void stochastic_depth_map(Frame frame, StochasticDepthParams params, PLANE depth, PLANE peel,
-                                 PLANE_OUT stochastic) {
+// in : depth, peel
+// out: stochastic
+kernel void stochastic_depth_map(ARGUMENTS) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const natural x = to_natural(FIRST_X + IOTA), y = (natural)((uint)ROW_Y), seed = (natural)((uint)frame.seed);
   const natural first = as_natural(to_stored(load(depth, here)));

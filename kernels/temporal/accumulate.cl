@@ -82,8 +82,9 @@ static inline real frames_alike(Frame frame, Params params, real z, real count, 
   return quotient((real)(1), quotient((real)(1), count) + larger(excess, (real)(0)));
 }
 
-kernel void temporal_accumulate(Frame frame, Frame other, Params params, PLANES(now), PLANE depth, PLANES(before),
-                                PLANE before_frames, PLANE tiles_away, PLANES_OUT(result), PLANE_OUT frames) {
+// in : now, depth, before, before_frames, tiles_away
+// out: result, frames
+kernel void temporal_accumulate(ARGUMENTS) {
   const Sources nows = SOURCE_PLANES(now), befores = SOURCE_PLANES(before);
   const Results results = RESULT_PLANES(result);
   const int here = index_of(frame, FIRST_X, ROW_Y);

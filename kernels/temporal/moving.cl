@@ -10,7 +10,9 @@
 #include "shared/lanes/load.h"
 #include "temporal/params.h"
 
-kernel void moving_tiles(Frame frame, Frame other, Params params, PLANE moved, PLANE_OUT moving) {
+// in : moved
+// out: moving
+kernel void moving_tiles(ARGUMENTS) {
   const integer first = (FIRST_X + IOTA) * TILE;
   // One column and one row more, for squares across the border of two tiles.
   mask found = (mask)(0), above[TILE + 1];
@@ -31,7 +33,9 @@ kernel void moving_tiles(Frame frame, Frame other, Params params, PLANE moved, P
   store(choose(found, (real)(0), REAL_INFINITY), moving, index_of(frame, FIRST_X, ROW_Y));
 }
 
-kernel void distance_across(Frame frame, Params params, PLANE moving, PLANE_OUT tiles_away) {
+// in : moving
+// out: tiles_away
+kernel void distance_across(ARGUMENTS) {
   real least = REAL_INFINITY;
   for (int dx = -REACH; dx <= REACH; ++dx) {
     const integer column = FIRST_X + dx + IOTA;
@@ -42,7 +46,9 @@ kernel void distance_across(Frame frame, Params params, PLANE moving, PLANE_OUT 
   store(least, tiles_away, index_of(frame, FIRST_X, ROW_Y));
 }
 
-kernel void distance_down(Frame frame, Params params, PLANE across, PLANE_OUT tiles_away) {
+// in : across
+// out: tiles_away
+kernel void distance_down(ARGUMENTS) {
   real least = REAL_INFINITY;
   for (int dy = -REACH; dy <= REACH; ++dy) {
     if (ROW_Y + dy < 0 || ROW_Y + dy >= frame.height) continue;

@@ -16,11 +16,6 @@
 #ifndef WITH_MOTION
 #define WITH_MOTION 0
 #endif
-#if WITH_MOTION
-#define MOTION_ARGUMENTS PLANE motion_x, PLANE motion_y,
-#else
-#define MOTION_ARGUMENTS
-#endif
 
 // Motion that differs by more pixels from that of a surface at rest is the surface's own.
 #define LEAST_OWN_MOTION ((scalar)0.25f)
@@ -83,10 +78,9 @@ static inline void store_nothing(Results before, PLANE_OUT before_frames, PLANE_
   store((real)(0), moved, here);
 }
 
-kernel void temporal_reproject(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x,
-                               PLANE normal_y, PLANE normal_z, PLANES(history), PLANE history_depth,
-                               PLANE history_frames, MOTION_ARGUMENTS PLANES_OUT(before), PLANE_OUT before_frames,
-                               PLANE_OUT moved) {
+// in : depth, normal, history, history_depth, history_frames; motion
+// out: before, before_frames, moved
+kernel void temporal_reproject(ARGUMENTS) {
   const Sources histories = SOURCE_PLANES(history);
   const Results befores = RESULT_PLANES(before);
   const int here = index_of(frame, FIRST_X, ROW_Y);

@@ -21,7 +21,7 @@ typedef struct {
   real per_range;
 } Search;
 
-static inline Search search_of(Frame frame, VolumetricParams params, Receiver r, Surface surface) {
+static inline Search search_of(Frame frame, Params params, Receiver r, Surface surface) {
   const Anchor a = r.point;
   const real3 n = normal_towards_eye(surface, r.normal), v = surface.to_eye;
   const real facing = dot3(n, v);
@@ -82,8 +82,9 @@ static inline __attribute__((always_inline)) real occluded_share(Frame frame, De
   return choose(whole > 0, quotient(occluded, whole), (real)(0));
 }
 
-kernel void volumetric_estimate(Frame frame, VolumetricParams params, PLANE depth, PLANE normal_x, PLANE normal_y,
-                                PLANE normal_z, OCCLUDERS_ARGUMENT WANTED_ARGUMENT PLANE_OUT ao_raw) {
+// in : depth, normal; occluders, wanted
+// out: ao_raw
+kernel void volumetric_estimate(ARGUMENTS) {
   SKIP_UNWANTED(frame, store((real)(1), ao_raw, here))
   const DepthLayers layers = LAYERS_FROM(frame, depth);
   Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);

@@ -15,7 +15,6 @@
 #include "run/arguments.h"
 #include "support/kernel_runs.h"
 #include "support/long.h"
-#include "technique/kernel_sources.h"
 
 namespace gloam::test {
 namespace {
@@ -24,9 +23,9 @@ namespace {
 // CL_DEVICE_MAX_CONSTANT_BUFFER_SIZE.
 constexpr size_t parameters_promised = 1024, constants_promised = 64 << 10;
 
-/// A kernel with the constants that some plan compiles it with.
+/// A kernel with the constants that some plan compiles it with, and its text.
 struct Constants {
-  std::string source, kernel;
+  std::string name, text;
   PlannedPass planned;
 };
 
@@ -47,21 +46,20 @@ std::string options_of(const PlannedPass& planned, const RunOptions& options) {
 }
 
 /// Bytes of a kernel's arguments in double precision and with pointers of 64 bits.
-size_t argument_bytes(const PlannedPass& planned, const std::vector<std::string>& names) {
+size_t argument_bytes(const PlannedPass& planned, const std::vector<Argument>& arguments) {
   constexpr size_t frame = 4 * sizeof(int) + 6 * sizeof(double), neighbour = frame + 12 * sizeof(double);
   size_t bytes = 0;
-  for (const std::string& name : names) {
-    const bool is_frame = name == "frame" || name == "other";
-    bytes += is_frame              ? frame
-             : name == "neighbour" ? neighbour
-             : name == "params"    ? 4 * planned.technique->parameters.size()
-                                   : 8;
+  for (const Argument& argument : arguments) {
+    bytes += argument.type == "Frame"       ? frame
+             : argument.type == "Neighbour" ? neighbour
+             : argument.type == "Params"    ? 4 * planned.technique->parameters.size()
+                                            : 8;
   }
   return bytes;
 }
 
 /// Throws Error for a pass whose arguments or tables are larger than every device takes.
-void check_sizes(const PlannedPass& planned, const std::vector<std::string>& arguments, Sizes& largest) {
+void check_sizes(const PlannedPass& planned, const std::vector<Argument>& arguments, Sizes& largest) {
   const size_t bytes = argument_bytes(planned, arguments);
   if (bytes > parameters_promised)
     throw Error("{}: {} bytes of arguments; not every device takes more than {}", planned.label(), bytes,
@@ -81,9 +79,11 @@ void add_kernels(Kernels& kernels, const std::vector<KernelRun>& runs) {
     const Layouts layouts(each.plan, each.frame.views[0].planes.begin()->second.channels[0].layout());
     for (const PlannedPass& planned : each.plan.passes) {
       check_sizes(planned, declared_arguments(planned, layouts), kernels.largest);
-      const std::string& source = source_of(*planned.technique, planned.pass);
-      kernels.all.try_emplace(source + " " + planned.pass.kernel + " " + options_of(planned, {.lanes = 1}),
-                              Constants{source, planned.pass.kernel, planned});
+      const std::string name = source_of(*planned.technique, planned.pass) + " " + planned.pass.kernel;
+      const std::string declaration = declaration_of(planned, layouts);
+      const auto [added, is_new] =
+          kernels.all.try_emplace(name + declaration + options_of(planned, {.lanes = 1}), Constants{name, "", planned});
+      if (is_new) added->second.text = kernel_text(planned, layouts);
     }
   }
 }
@@ -118,10 +118,6 @@ std::vector<Way> further_ways() {
           {"spir64", {.lanes = 16}},
           {"spir64", {.real = Real::float64, .lanes = 8}},
           {"spir64", {.lanes = 1, .gathers_only = true}}};
-}
-
-std::string text_of(const Constants& constants) {
-  return kernel_text(constants.source, constants.kernel, constants.planned.technique->parameters);
 }
 
 /// Every `n`-th of the sets of constants of one kernel, so that at most so many are left; in the long run all.
@@ -167,18 +163,17 @@ void list_baselines(Listing& listing) {
 void list_kernels(const std::string& folder, size_t part, size_t parts) {
   const Kernels kernels = all_kernels();
   std::map<std::string, std::vector<const Constants*>> by_name;
-  for (const auto& [unused, constants] : kernels.all)
-    by_name[constants.source + " " + constants.kernel].push_back(&constants);
+  for (const auto& [unused, constants] : kernels.all) by_name[constants.name].push_back(&constants);
   Listing listing(folder);
   size_t number = 0;
   for (const auto& [unused, all] : by_name) {
     if (number++ % parts != part) continue;
     const std::vector<const Constants*> some = some_of(all);
     for (const Constants* constants : some)
-      listing.add(text_of(*constants), usual, options_of(constants->planned, usual.options));
+      listing.add(constants->text, usual, options_of(constants->planned, usual.options));
     for (const Way& way : further_ways()) {
       for (const Constants* constants : some) {
-        listing.add(text_of(*constants), way, options_of(constants->planned, way.options));
+        listing.add(constants->text, way, options_of(constants->planned, way.options));
         if (!is_long_run()) break;
       }
     }

@@ -4,7 +4,6 @@
 
 #include <sstream>
 
-#include "base/lists.h"
 
 namespace gloam::kernel_sources_test {
 namespace {
@@ -25,17 +24,21 @@ TEST(KernelSources, AProgramKeepsOneKernel) {
   EXPECT_EQ(kernels_of(with_one_kernel(file, "stereo_blend")), std::vector<std::string>{"stereo_blend"});
 }
 
-TEST(KernelSources, TheStructOfParametersIsWrittenFromTheTable) {
-  const ParameterList list = {"AnyParams",
-                              {float_parameter("radius", 0.5, 0, 1, "", ""), bool_parameter("jitter", on, ""),
-                               choice_parameter("falloff", "none", "(quadratic, none)", "")}};
-  EXPECT_EQ(struct_of(list), "typedef struct {\n  float radius;\n  int jitter;\n  int falloff;\n} AnyParams;\n");
-  EXPECT_EQ(struct_of({}), "");
+TEST(KernelSources, LinesKeepTheirNumbersWhereKernelsAreDropped) {
+  const std::string text =
+      "#line 1 \"a.cl\"\nint first;\nkernel void one(ARGUMENTS) {\n  if (1) {\n  }\n}\nint last;\n"
+      "kernel void two(ARGUMENTS) {\n}\n";
+  EXPECT_EQ(with_one_kernel(text, "two"),
+            "#line 1 \"a.cl\"\nint first;\n#line 6 \"a.cl\"\nint last;\nkernel void two(ARGUMENTS) {\n}\n");
+  EXPECT_EQ(kernels_of(with_one_kernel("kernel void two(int own) {\n}\n", "two")), std::vector<std::string>());
 }
 
-TEST(KernelSources, KernelsNamedByAMacroStay) {
-  const std::vector<std::string> kept = kernels_of(with_one_kernel(flatten("lightfield/lightfield.cl"), "other"));
-  EXPECT_TRUE(contains(kept, "ESTIMATE_NAME"));
+TEST(KernelSources, TheStructOfParametersIsWrittenFromTheTable) {
+  const ParameterList list = {"Any",
+                              {float_parameter("radius", 0.5, 0, 1, "", ""), bool_parameter("jitter", on, ""),
+                               choice_parameter("falloff", "none", "(quadratic, none)", "")}};
+  EXPECT_EQ(struct_of(list), "typedef struct {\n  float radius;\n  int jitter;\n  int falloff;\n} Params;\n");
+  EXPECT_EQ(struct_of({}), "");
 }
 
 }  // namespace

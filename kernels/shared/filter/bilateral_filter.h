@@ -25,8 +25,9 @@ static inline Taps filtered_taps(Frame frame, Params params, Sources sources, PL
   return taps_around(frame, plane, x, y, here, sources, depth, normal_x, normal_y, normal_z);
 }
 
-kernel void bilateral(Frame frame, Params params, PLANES(source), PLANE depth, PLANE normal_x, PLANE normal_y,
-                      PLANE normal_z, WANTED_ARGUMENT PLANES_OUT(result)) {
+// in : source, depth, normal; wanted
+// out: result
+kernel void bilateral(ARGUMENTS) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const Sources sources = SOURCE_PLANES(source);
   const Results results = RESULT_PLANES(result);

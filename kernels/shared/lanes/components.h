@@ -1,5 +1,5 @@
-// Planes of one component or of a colour, for kernels that treat all components alike: `PLANES(source)` among a kernel's arguments is the
-// plane `source`, or source_r, source_g and source_b; SOURCE_PLANES(source) gathers them.
+// Planes of one component or of a colour, for kernels that treat all components alike: SOURCE_PLANES(source) gathers the plane
+// `source`, or source_r, source_g and source_b.
 // -D COMPONENTS: 1 (the default) or 3
 #ifndef GLOAM_COMPONENTS_H
 #define GLOAM_COMPONENTS_H
@@ -20,15 +20,11 @@ typedef struct {
 } Results;
 
 #if COMPONENTS == 1
-#define PLANES(name) PLANE name
-#define PLANES_OUT(name) PLANE_OUT name
 #define SOURCE_PLANES(name) \
   {                         \
     { name }                \
   }
 #else
-#define PLANES(name) PLANE name##_r, PLANE name##_g, PLANE name##_b
-#define PLANES_OUT(name) PLANE_OUT name##_r, PLANE_OUT name##_g, PLANE_OUT name##_b
 #define SOURCE_PLANES(name)          \
   {                                  \
     { name##_r, name##_g, name##_b } \

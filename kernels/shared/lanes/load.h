@@ -7,6 +7,7 @@
 
 #define PLANE global const float* restrict
 #define PLANE_OUT global float* restrict
+#define TABLE constant float*
 
 // The row of pixels that this work-item computes.
 #define FIRST_X ((int)get_global_id(0) * LANES)

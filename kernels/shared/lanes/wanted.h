@@ -1,8 +1,7 @@
 // The pixels of an image that a mask wants: one bit per pixel, 32 pixels to a word. Word k of a row lies where the row's pixel k
 // would, in a plane's memory.
 //
-// A kernel that skips unwanted rows of pixels has the argument WANTED_ARGUMENT before its outputs, and SKIP_UNWANTED as its
-// first line.
+// A kernel that skips unwanted rows of pixels (Pass::can_skip) has SKIP_UNWANTED as its first line. With MASKED it reads `wanted`.
 // -D MASKED; KEEP (skipped rows keep their values)
 #ifndef GLOAM_WANTED_H
 #define GLOAM_WANTED_H
@@ -58,7 +57,6 @@ static inline mask wanted_in_row(WANTED wanted, Frame f) {
 // Defines `is_wanted`. If no pixel of the row is wanted, the kernel returns after STORE, which writes the values of skipped
 // pixels at index `here`.
 #if MASKED
-#define WANTED_ARGUMENT WANTED wanted,
 #define SKIP_UNWANTED(frame, STORE)                    \
   const mask is_wanted = wanted_in_row(wanted, frame); \
   if (!ANY(is_wanted)) {                               \
@@ -67,7 +65,6 @@ static inline mask wanted_in_row(WANTED wanted, Frame f) {
     return;                                            \
   }
 #else
-#define WANTED_ARGUMENT
 #define SKIP_UNWANTED(frame, STORE) const mask is_wanted = EVERY_LANE;
 #endif
 

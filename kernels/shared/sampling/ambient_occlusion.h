@@ -128,11 +128,9 @@ static inline void store_open(real open, Receiver r, PLANE_OUT ao) {
 
 // Of kernels that make AO beside something else, for those that ask for it (WITH_AO_RAW).
 #if WITH_AO_RAW
-#define AO_RAW_ARGUMENT , PLANE_OUT ao_raw
 #define STORE_AO_RAW(open, r) store_open(open, r, ao_raw);
 #define STORE_NO_AO_RAW store((real)(1), ao_raw, here);
 #else
-#define AO_RAW_ARGUMENT
 #define STORE_AO_RAW(open, r)
 #define STORE_NO_AO_RAW
 #endif

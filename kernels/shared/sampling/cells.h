@@ -11,7 +11,9 @@
 
 #include "shared/lanes/load.h"
 
-kernel void cells_grow(Frame frame, Params params, PLANE found, PLANE_OUT grown) {
+// in : found
+// out: grown
+kernel void cells_grow(ARGUMENTS) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const mask has_left = to_mask(FIRST_X + IOTA > 0), has_right = to_mask(FIRST_X + IOTA + 1 < frame.width);
   real most = 0;
@@ -25,7 +27,9 @@ kernel void cells_grow(Frame frame, Params params, PLANE found, PLANE_OUT grown)
   store(most, grown, here);
 }
 
-kernel void cells_spread(Frame frame, Frame other, Params params, PLANE grown, PLANE_OUT result) {
+// in : grown
+// out: result
+kernel void cells_spread(ARGUMENTS) {
   const integer column = min(FIRST_X + IOTA, (integer)(frame.width - 1)) / SCALE;
   store(gather(grown, index_of(other, 0, ROW_Y / SCALE) + column), result, index_of(frame, FIRST_X, ROW_Y));
 }

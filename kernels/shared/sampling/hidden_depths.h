@@ -30,7 +30,9 @@ static inline void store_hidden(const real* sorted, Frame frame, int here, PLANE
     store_group(sorted + k, layer_of_out(hidden_depths, frame, k), here);
 }
 
-kernel void sort_hidden_depths(Frame frame, Params params, PLANE depth, PLANE stochastic, PLANE_OUT hidden_depths) {
+// in : depth, stochastic
+// out: hidden_depths
+kernel void sort_hidden_depths(ARGUMENTS) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const real seen = load(depth, here);
   real sorted[OCCLUDERS_LAYERS];
@@ -41,8 +43,9 @@ kernel void sort_hidden_depths(Frame frame, Params params, PLANE depth, PLANE st
 
 #ifdef SCALE
 // `frame`: the reduced one; `other`: the one that is read.
-kernel void sort_every_hidden_depths(Frame frame, Frame other, Params params, PLANE depth, PLANE stochastic,
-                                     PLANE_OUT low_depth, PLANE_OUT hidden_depths) {
+// in : depth, stochastic
+// out: low_depth, hidden_depths
+kernel void sort_every_hidden_depths(ARGUMENTS) {
   const int from = index_of(other, FIRST_X * SCALE, ROW_Y * SCALE), here = index_of(frame, FIRST_X, ROW_Y);
   const integer step = IOTA * (integer)(SCALE);
   const real seen = gather(depth + from, step);

@@ -6,9 +6,7 @@
 #include "shared/lanes/math.h"
 
 // Where occluders are looked for: in the depth alone, in every layer of a stack whose first is the depth, or with STOCHASTIC in
-// the depth and then in every layer of a stack. A kernel's arguments after the normal:
-//   OCCLUDERS_ARGUMENT WANTED_ARGUMENT PLANE_OUT ao_raw ...
-// and its first lines:
+// the depth and then in every layer of a stack. A kernel's first lines:
 //   SKIP_UNWANTED(frame, store((real)(1), ao_raw, here))
 //   const DepthLayers layers = LAYERS_FROM(frame, depth);
 typedef struct {
@@ -24,7 +22,6 @@ static inline DepthLayers depth_layers(global const float* first, global const f
 }
 
 #ifdef OCCLUDERS_LAYERS
-#define OCCLUDERS_ARGUMENT PLANE occluders,
 #if STOCHASTIC
 // Hidden depths (hidden_depths.h).
 #define LAYERS (1 + OCCLUDERS_LAYERS)
@@ -35,16 +32,13 @@ static inline DepthLayers depth_layers(global const float* first, global const f
 #endif
 #else
 #define LAYERS 1
-#define OCCLUDERS_ARGUMENT
 #define LAYERS_FROM(frame, depth) depth_layers(depth, depth)
 #endif
 
 // As LAYERS_FROM, for the other of two views.
 #if OCCLUDERS_LAYERS
-#define OTHER_OCCLUDERS_ARGUMENT PLANE other_occluders,
 #define OTHER_LAYERS_FROM(frame, depth) depth_layers(depth, other_occluders)
 #else
-#define OTHER_OCCLUDERS_ARGUMENT
 #define OTHER_LAYERS_FROM(frame, depth) depth_layers(depth, depth)
 #endif
 

@@ -21,10 +21,8 @@ static inline Receiver receiver_at_index(Frame frame, scalar radius, scalar max_
   return r;
 }
 
-// MAY_DIFFER: lanes for which the other eye is used (half_occlusion.h). A kernel has the argument HALF_OCCLUDED_ARGUMENT after
-// the other eye's planes.
+// MAY_DIFFER: lanes for which the other eye is used (half_occlusion.h).
 #if WITH_HALF_OCCLUSION
-#define HALF_OCCLUDED_ARGUMENT PLANE other_half_occluded,
 #define MAY_DIFFER(frame, neighbour, radius, receiver)                                                         \
   (is_near_marked(other_half_occluded, (neighbour).frame, into_other(neighbour, position_of(frame, receiver)), \
                   radius) |                                                                                    \
@@ -44,7 +42,6 @@ static inline mask reaches_out_of_either(Frame frame, Neighbour neighbour, Recei
                                 (there.is_seen & reaches_out(neighbour.frame, there.x, there.y, r.reach)));
 }
 #else
-#define HALF_OCCLUDED_ARGUMENT
 #define MAY_DIFFER(frame, neighbour, radius, receiver) EVERY_LANE
 #endif
 

@@ -18,15 +18,9 @@
 #include "shared/filter/bilateral.h"
 #include "shared/stereo/fetch.h"
 
-#if WITH_SOURCE_WEIGHTS
-#define SOURCE_WEIGHTS_ARGUMENT PLANE source_weights,
-#else
-#define SOURCE_WEIGHTS_ARGUMENT
-#endif
-
-kernel void bilateral_weighted(Frame frame, Params params, PLANES(source), SOURCE_WEIGHTS_ARGUMENT PLANE depth,
-                               PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANES_OUT(result),
-                               PLANE_OUT result_weights) {
+// in : source, depth, normal; source_weights
+// out: result, result_weights
+kernel void bilateral_weighted(ARGUMENTS) {
   const Sources sources = SOURCE_PLANES(source);
   const Results results = RESULT_PLANES(result);
   const int y = ROW_Y, here = index_of(frame, FIRST_X, y);
@@ -55,10 +49,9 @@ static inline real smooth_step(scalar from, scalar to, real value) {
   return t * t * (3 - 2 * t);
 }
 
-kernel void stereo_blend(Frame frame, Neighbour neighbour, Params params, PLANES(source), PLANE source_weights,
-                         PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANES(other_source),
-                         PLANE other_weights, PLANE other_depth, PLANE other_normal_x, PLANE other_normal_y,
-                         PLANE other_normal_z, PLANES_OUT(result)) {
+// in : source, source_weights, depth, normal, other_source, other_weights, other_depth, other_normal
+// out: result
+kernel void stereo_blend(ARGUMENTS) {
   const Sources sources = SOURCE_PLANES(source), others = SOURCE_PLANES(other_source);
   const Results results = RESULT_PLANES(result);
   const int here = index_of(frame, FIRST_X, ROW_Y);

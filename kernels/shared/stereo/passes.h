@@ -20,19 +20,9 @@
 #include "shared/stereo/half_occlusion.h"
 #include "shared/stereo/visibility.h"
 
-#if WITH_PIXEL_LIST
-#define PIXEL_LIST_OUT_ARGUMENT , PIXEL_LIST_OUT newly_visible
-#else
-#define PIXEL_LIST_OUT_ARGUMENT
-#endif
-#if WITH_HALF_OCCLUSION
-#define HALF_OCCLUDED_OUT_ARGUMENT , PLANE_OUT half_occluded
-#else
-#define HALF_OCCLUDED_OUT_ARGUMENT
-#endif
-
-kernel void stereo_visibility(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE other_depth,
-                              PLANE_OUT stereo_depth PIXEL_LIST_OUT_ARGUMENT HALF_OCCLUDED_OUT_ARGUMENT) {
+// in : depth, other_depth
+// out: stereo_depth; newly_visible, half_occluded
+kernel void stereo_visibility(ARGUMENTS) {
 #if WITH_PIXEL_LIST
   if (FIRST_X == 0 && ROW_Y == 0) empty_list(newly_visible);
 #endif
@@ -46,7 +36,9 @@ kernel void stereo_visibility(Frame frame, Neighbour neighbour, Params params, P
 }
 
 #if WITH_HALF_OCCLUSION
-kernel void stereo_half_occlusion(Frame frame, Params params, PLANE depth, PLANE_OUT half_occluded) {
+// in : depth
+// out: half_occluded
+kernel void stereo_half_occlusion(ARGUMENTS) {
   const real z = fabs(load(depth, index_of(frame, FIRST_X, ROW_Y)));
   mark_around_all(half_occluded, frame, position_at(frame, to_real(FIRST_X + IOTA), (real)(ROW_Y), z), params.radius,
                   is_half_occluded(depth, frame));
@@ -57,10 +49,9 @@ kernel void stereo_half_occlusion(Frame frame, Params params, PLANE depth, PLANE
 // NO_BACK_CHECK: share by which the other eye's depth may differ from that of the pixel's surface.
 #define SAME_DEPTH ((scalar)0.02)
 
-kernel void stereo_reproject(Frame frame, Neighbour neighbour, Params params, PLANE depth, PLANE normal_x,
-                             PLANE normal_y, PLANE normal_z, PLANE other_depth, PLANE other_normal_x,
-                             PLANE other_normal_y, PLANE other_normal_z, PLANES(other), PLANES_OUT(result),
-                             PIXEL_LIST_OUT newly_visible) {
+// in : depth, normal, other_depth, other_normal, other
+// out: result, newly_visible
+kernel void stereo_reproject(ARGUMENTS) {
   const Sources others = SOURCE_PLANES(other);
   const Results results = RESULT_PLANES(result);
   const int here = index_of(frame, FIRST_X, ROW_Y);

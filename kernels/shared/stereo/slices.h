@@ -5,7 +5,7 @@
 //   closed_to_both(TABLES here, there, own, other, is_seen)                       closed share of a slice, times its importance
 // With LIGHT also Search::sources, and
 //   start_rays_of_view(view, shift), add_light_to_both(light, here, there, own, other)
-// A technique with tables defines TABLES_ARGUMENT and TABLES: the tables as parameters and as arguments, each with a comma.
+// A technique with tables defines TABLE_PARAMETERS and TABLES: the tables as parameters and as arguments, each with a comma.
 //
 // in : depth, other_depth  view-space z of either eye, scene units, +inf = background; with the sign of visibility.h
 //      normal              unit, view space
@@ -21,27 +21,21 @@
 #include "shared/stereo/passes.h"
 #include "shared/stereo/slice_view.h"
 
-#ifndef TABLES_ARGUMENT
-#define TABLES_ARGUMENT
+#ifndef TABLE_PARAMETERS
+#define TABLE_PARAMETERS
 #define TABLES
 #endif
 
 #if LIGHT
-#define SOURCES_OF_EYE PLANE sources,
-#define SOURCES_OF_OTHER PLANE other_sources,
-#define BOTH_SOURCES_ARGUMENT PLANE sources, PLANE other_sources,
+#define SOURCE_PARAMETERS PLANE sources, PLANE other_sources,
 #define BOTH_SOURCES sources, other_sources,
-#define ESTIMATE_OUT PLANE_OUT indirect_raw_r, PLANE_OUT indirect_raw_g, PLANE_OUT indirect_raw_b
 #define PUT(put, open, light, at)       \
   put((light).x, indirect_raw_r, (at)); \
   put((light).y, indirect_raw_g, (at)); \
   put((light).z, indirect_raw_b, (at));
 #else
-#define SOURCES_OF_EYE
-#define SOURCES_OF_OTHER
-#define BOTH_SOURCES_ARGUMENT
+#define SOURCE_PARAMETERS
 #define BOTH_SOURCES
-#define ESTIMATE_OUT PLANE_OUT ao_raw
 #define PUT(put, open, light, at) put(open, ao_raw, (at));
 #endif
 
@@ -97,7 +91,7 @@ static inline __attribute__((always_inline)) void search_view(Frame frame, Param
 }
 
 // `there`: the point as the other eye shows it, valid where `is_seen`.
-static inline __attribute__((always_inline)) real share_open_to_both(TABLES_ARGUMENT Frame frame, Frame other,
+static inline __attribute__((always_inline)) real share_open_to_both(TABLE_PARAMETERS Frame frame, Frame other,
                                                                      Params params, DepthLayers layers,
                                                                      DepthLayers other_layers, Search here,
                                                                      Search there, mask is_seen, int within,
@@ -130,7 +124,7 @@ static inline __attribute__((always_inline)) real share_open_to_both(TABLES_ARGU
 }
 
 // AO of one point per lane, and its light. `may_differ`: lanes that use the other eye.
-static inline real open_to_both(TABLES_ARGUMENT BOTH_SOURCES_ARGUMENT Frame frame, Neighbour neighbour, Params params,
+static inline real open_to_both(TABLE_PARAMETERS SOURCE_PARAMETERS Frame frame, Neighbour neighbour, Params params,
                                 DepthLayers layers, DepthLayers other_layers, Receiver receiver, mask may_differ,
                                 real3* light) {
   const Frame other = neighbour.frame;
@@ -159,9 +153,9 @@ static inline real open_to_both(TABLES_ARGUMENT BOTH_SOURCES_ARGUMENT Frame fram
   return choose(is_surface, smaller(larger(open, (real)(0)), (real)(1)), (real)(1));
 }
 
-kernel void stereo_slices(Frame frame, Neighbour neighbour, Params params, TABLES_ARGUMENT PLANE depth, PLANE normal_x,
-                          PLANE normal_y, PLANE normal_z, SOURCES_OF_EYE PLANE other_depth,
-                          SOURCES_OF_OTHER HALF_OCCLUDED_ARGUMENT ESTIMATE_OUT) {
+// in : depth, normal, other_depth; other_half_occluded, coefficients, sources, other_sources
+// out: ; ao_raw, indirect_raw
+kernel void stereo_slices(ARGUMENTS) {
   const Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
   real open = (real)(1);
   real3 light = make3((real)(0), (real)(0), (real)(0));
@@ -173,9 +167,9 @@ kernel void stereo_slices(Frame frame, Neighbour neighbour, Params params, TABLE
 }
 
 // stereo_slices for the pixels of a list.
-kernel void stereo_slices_list(Frame frame, Neighbour neighbour, Params params, TABLES_ARGUMENT PLANE depth,
-                               PLANE normal_x, PLANE normal_y, PLANE normal_z, SOURCES_OF_EYE PIXEL_LIST newly_visible,
-                               PLANE other_depth, SOURCES_OF_OTHER ESTIMATE_OUT) {
+// in : depth, normal, newly_visible, other_depth; coefficients, sources, other_sources
+// out: ; ao_raw, indirect_raw
+kernel void stereo_slices_list(ARGUMENTS) {
   integer index;
   if (!pixels_of_item(newly_visible, frame, &index)) return;
   const Receiver r =

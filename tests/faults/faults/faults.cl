@@ -6,7 +6,9 @@
 // -D FAULT: its number in technique.cpp
 #include "shared/frame/camera.h"
 
-kernel void faults(Frame frame, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z, PLANE_OUT ao) {
+// in : depth, normal
+// out: ao
+kernel void faults(ARGUMENTS) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const real z = load(depth, here);
   const mask background = is_background(z);
