@@ -43,6 +43,9 @@ TEST_F(Cli, WrongUsage) {
   expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--compression", "dwaa"}), 2, {"dwaa", "zip"});
   expect_refused(gloam({"plan", "oa", loggia}), 2, {"'oa'", "did you mean 'ao'"});
   expect_refused(gloam({"list", "device"}), 2, {"device", "did you mean 'devices'"});
+  expect_refused(gloam({"list"}), 2, {"what is listed is missing", "techniques"});
+  expect_refused(gloam({"list", "--kernel", "gtao/estimat"}), 2, {"'gtao/estimat'", "did you mean 'gtao/estimate'"});
+  expect_refused(gloam({"list", "--kernel", "gtoa/estimate"}), 2, {"'gtoa'", "did you mean 'gtao'"});
   expect_refused(gloam({"compare", loggia, loggia_truth, "-o", path("d.jpg")}), 2, {".png"});
   const Result far = gloam({"compare", loggia, loggia_truth, "--tol", "1"});
   expect_refused(far, 2, {"no flag '--tol'"});

@@ -85,6 +85,19 @@ TEST_F(Cli, OneTechniqueIsShownInFull) {
   EXPECT_EQ(gloam({"list", "techniques", "gtoa"}).status, 2);
 }
 
+TEST_F(Cli, ListsTheTextThatTheCompilerOfKernelsGets) {
+  const Result shown = gloam({"list", "--kernel", "gtao/estimate"});
+  ASSERT_EQ(shown.status, 0);
+  for (const char* part :
+       {"// gtao/estimate, compiled with -D ", " -D DIRECTIONS=1 ", "typedef struct {\n  float radius;\n",
+        "#define ARGUMENTS Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z, "
+        "PLANE_OUT ao_raw\n",
+        "#line 1 \"gtao/gtao.cl\"\n", "\n// out: ao_raw; ", "\nkernel void gtao_estimate(ARGUMENTS) {\n"})
+    EXPECT_NE(shown.out.find(part), std::string::npos) << part;
+  EXPECT_EQ(gloam({"list", "--kernel", "dp-indirect/estimate"}).status, 0) << "reads stacks";
+  EXPECT_EQ(gloam({"list", "--kernel", "stereo-ssr/see"}).status, 0) << "reads the other eye";
+}
+
 TEST_F(Cli, QuietTellsErrorsButNoNotes) {
   write_frame(path("f.exr"), small_frame(32, 24, {"depth"}));
   const Arguments away = {"capture", "plane", "-o",    path("p.exr"), "--size",

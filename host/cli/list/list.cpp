@@ -1,7 +1,8 @@
-// gloam list techniques|devices|metrics|scenes|shots|cases
+// gloam list techniques|devices|metrics|scenes|shots|cases; gloam list --kernel NAME
 #include <memory>
 
 #include "cli/flags/options.h"
+#include "cli/list/kernel.h"
 #include "cli/list/techniques.h"
 #include "gloam/device.h"
 #include "gloam/error.h"
@@ -136,19 +137,28 @@ const std::vector<std::string> listed = {"techniques", "devices", "metrics", "sc
 
 void add_list(CLI::App& app) {
   struct Flags {
-    std::string what, name;
+    std::string what, name, kernel;
     bool markdown = false;
     JsonFlag json;
   };
   auto flags = std::make_shared<Flags>();
   CLI::App* command =
       app.add_subcommand("list", "what there is: techniques, devices, metrics, scenes, their shots or hard cases");
-  command->add_option("what", flags->what, "what is listed")->required()->type_name(type_of_words(listed));
+  auto* what = command->add_option("what", flags->what, "what is listed")->type_name(type_of_words(listed));
   command->add_option("name", flags->name, "a technique: all about it")->type_name("NAME");
   command->add_flag("--markdown", flags->markdown, "techniques as docs/techniques.md has them");
+  command
+      ->add_option("--kernel", flags->kernel,
+                   "instead: the text that the compiler gets for a pass, by its name in gloam plan")
+      ->type_name("TECHNIQUE/PASS")
+      ->excludes(what);
   flags->json.add_to(*command);
-  command->footer("Examples:\n  gloam list techniques\n  gloam list techniques gtao\n  gloam list devices --json -");
+  command->footer(
+      "Examples:\n  gloam list techniques\n  gloam list techniques gtao\n  gloam list devices --json -\n"
+      "  gloam list --kernel gtao/estimate");
   command->callback([flags] {
+    if (!flags->kernel.empty()) return print_kernel(flags->kernel);
+    if (flags->what.empty()) throw UsageError("list: what is listed is missing; {} can be", enumerate(listed));
     if (!flags->name.empty() && (flags->what != "techniques" || flags->markdown))
       throw UsageError("list {}{}: shows all; leave out '{}', or write gloam list techniques {}", flags->what,
                        flags->markdown ? " --markdown" : "", flags->name, flags->name);

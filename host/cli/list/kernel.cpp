@@ -1,0 +1,41 @@
+#include "cli/list/kernel.h"
+
+#include "base/lists.h"
+#include "gloam/error.h"
+#include "gloam/plan.h"
+#include "gloam/planes.h"
+#include "run/kernels.h"
+
+namespace gloam::cli {
+namespace {
+
+/// All planes that a frame may have, with some layers of each stack.
+std::vector<std::string> all_planes() {
+  constexpr int layers = 16;
+  std::vector<std::string> planes;
+  for (const PlaneKind& kind : plane_kinds()) planes.push_back(kind.name);
+  for (const StackKind& stack : stack_kinds()) {
+    for (int layer = 0; layer < layers; ++layer) planes.push_back(layer_name(stack.name, layer));
+  }
+  return planes;
+}
+
+}  // namespace
+
+void print_kernel(const std::string& label) {
+  const Technique& technique = find_technique(label.substr(0, label.find('/')));
+  const Plan plan = make_plan({.outputs = {technique.name}}, all_planes(), "");
+  std::vector<std::string> labels;
+  for (const PlannedPass& planned : plan.passes) {
+    add_new(labels, planned.label());
+    if (planned.label() != label) continue;
+    std::string constants;
+    for (const auto& [name, value] : planned.pass.defines) constants += fmt::format(" -D {}={}", name, value);
+    fmt::print("// {}, compiled with{} and what device and run add, such as -D LANES=8\n{}", label, constants,
+               kernel_text(planned, Layouts(plan, Layout(1, 1))));
+    return;
+  }
+  throw UsageError("no kernel '{}'{}; {} has {}", label, suggestion(label, labels), technique.name, enumerate(labels));
+}
+
+}  // namespace gloam::cli
