@@ -76,10 +76,11 @@ struct Footprint {
   bool is_wide = false;
 };
 
-/// One kernel launch. Kernel arguments, `ARGUMENTS` in the kernel's text: (Frame frame, Frame other, Neighbour neighbour, projections, Params params, tables...,
-/// view_tables..., reads..., writes...). `params` is left out if the technique has no parameters. `other`, the frame of planes of a second
-/// resolution, is passed only if such planes are bound; `neighbour` (frame.h) only if planes of the other view or of the frame
-/// before are bound. If the camera of the frame before is unknown, the neighbour sees nothing.
+/// One kernel launch. Kernel arguments, which the kernel's text calls ARGUMENTS: (Frame frame, Frame other, Neighbour neighbour,
+/// projections, Params params, tables..., view_tables..., reads..., writes...). `params` is left out if the technique has no
+/// parameters. `other`, the frame of planes of a second resolution, is passed only if such planes are bound; `neighbour` (frame.h)
+/// only if planes of the other view or of the frame before are bound. If the camera of the frame before is unknown, the neighbour
+/// sees nothing.
 struct Pass {
   std::string name;                    ///< "estimate": shown as "hbao+/estimate"
   std::string kernel;                  ///< function in `source`
