@@ -1,8 +1,7 @@
 #include "results/hard_cases.h"
 
-#include <fmt/format.h>
-
-#include "results/json_object.h"
+#include "base/json_object.h"
+#include "gloam/error.h"
 
 namespace gloam::report {
 
@@ -11,18 +10,14 @@ bool is_of_hard_cases(const Json& document) {
 }
 
 HardCases hard_cases_of(const Json& document, const std::filesystem::path& file) {
-  const Object all(document, file.string(), "");
+  const JsonObject all(document, {file.string(), "remove the file, and gloam stress makes it anew"});
   std::map<std::string, std::map<double, bool>> held;  ///< technique -> case -> whether all of it holds
-  for (const Object& each : all.needed_list("cases")) {
-    const Json holds = each.json().value("held", Json());
-    if (!holds.is_boolean())
-      throw Error("{}: a case of {} does not say whether it is held; remove the file, and gloam stress makes it anew",
-                  file.string(), each.needed_text("technique"));
-    const auto [known, is_new] =
-        held[each.needed_text("technique")].emplace(each.needed_number("case"), holds.get<bool>());
-    known->second = known->second && holds.get<bool>();
+  for (const JsonObject& each : all.objects("cases")) {
+    const bool holds = each.flag("held");
+    const auto [known, is_new] = held[each.text("technique")].emplace(each.number("case"), holds);
+    known->second = known->second && holds;
   }
-  HardCases found{all.text("device"), {}};
+  HardCases found{all.text_if("device"), {}};
   for (const auto& [technique, cases] : held) {
     HeldCases& counts = found.techniques[technique];
     counts.cases = cases.size();

@@ -5,43 +5,53 @@
 #include <map>
 
 #include "base/files.h"
+#include "base/json_object.h"
 #include "base/json_text.h"
 #include "base/lists.h"
 #include "gloam/error.h"
-#include "results/json_object.h"
 #include "technique/ambient_occlusion.h"
 
 namespace gloam::report {
 namespace {
 
-Milliseconds milliseconds_of(const Object& object) {
-  const double median = object.needed_number("median");
-  return {median, object.number("min").value_or(median), object.number("max").value_or(median),
-          object.numbers("rounds")};
+Milliseconds milliseconds_of(const JsonObject& object) {
+  const double median = object.number("median");
+  return {median, object.number_if("min").value_or(median), object.number_if("max").value_or(median),
+          object.numbers_if("rounds")};
 }
 
-std::optional<PassCount> count_of(const Object& pass) {
+std::optional<PassCount> count_of(const JsonObject& pass) {
   if (pass.json().value("per_pixel", Json()).is_null()) return {};
-  const Object count = pass.object("per_pixel");
-  return PassCount{count.needed_number("operations"), count.needed_number("loads"), count.needed_number("bytes_loaded"),
-                   count.needed_number("bytes_stored")};
+  const JsonObject count = pass.object_if("per_pixel");
+  return PassCount{count.number("operations"), count.number("loads"), count.number("bytes_loaded"),
+                   count.number("bytes_stored")};
 }
 
-std::optional<Peaks> peaks_of(const Object& scene) {
-  const Object peaks = scene.object("peaks");
-  const Peaks found{peaks.number("copy_gb_per_s"), peaks.number("gather_g_per_s"), peaks.number("fma_gflops")};
+std::optional<Peaks> peaks_of(const JsonObject& scene) {
+  const JsonObject peaks = scene.object_if("peaks");
+  const Peaks found{peaks.number_if("copy_gb_per_s"), peaks.number_if("gather_g_per_s"), peaks.number_if("fma_gflops")};
   if (!found.copy_gb_per_s && !found.gather_g_per_s && !found.fma_gflops) return {};
   return found;
 }
 
-Ladder ladder_of(const Object& l) {
-  return {l.number("t0w"), l.number("t1"),      l.number("t2"),       l.number("t12"),
-          l.number("t3"),  l.number("t4_bias"), l.number("t4_noise"), l.number("t5")};
+/// The two numbers of a size; empty if there is none.
+std::pair<Number, Number> size_of(const JsonObject& o) {
+  const std::vector<double> size = o.numbers_if("size");
+  if (size.size() != 2) {
+    if (o.find("size")) o.refuse("size", "a list of width and height is needed");
+    return {};
+  }
+  return {size[0], size[1]};
+}
+
+Ladder ladder_of(const JsonObject& l) {
+  return {l.number_if("t0w"), l.number_if("t1"),      l.number_if("t2"),       l.number_if("t12"),
+          l.number_if("t3"),  l.number_if("t4_bias"), l.number_if("t4_noise"), l.number_if("t5")};
 }
 
 /// The plane that was measured; older files know ambient occlusion alone.
-std::string effect_of(const Object& o) {
-  const std::string effect = o.text("effect");
+std::string effect_of(const JsonObject& o) {
+  const std::string effect = o.text_if("effect");
   return effect.empty() ? "ao" : effect;
 }
 
@@ -58,62 +68,62 @@ Reads reads_by_name(const std::string& technique) {
   return {{"depth"}};
 }
 
-Reads reads_of(const Object& o) {
-  Reads reads = reads_by_name(o.needed_text("technique"));
-  if (const auto depths = o.texts("depths")) reads.depths = *depths;
-  reads.views = int(std::clamp(o.number("views").value_or(1), 0.0, 1e9));
+Reads reads_of(const JsonObject& o) {
+  Reads reads = reads_by_name(o.text("technique"));
+  if (const auto depths = o.texts_if("depths")) reads.depths = *depths;
+  reads.views = int(std::clamp(o.number_if("views").value_or(1), 0.0, 1e9));
   return reads;
 }
 
-RoundRatios round_ratios_of(const Object& o, const std::string& ratio) {
-  return {o.numbers(ratio.c_str()), o.numbers(("cpu_" + ratio).c_str())};
+RoundRatios round_ratios_of(const JsonObject& o, const std::string& ratio) {
+  return {o.numbers_if(ratio), o.numbers_if("cpu_" + ratio)};
 }
 
-Row row_of(const Object& o) {
+Row row_of(const JsonObject& o) {
   Row row;
-  row.technique = o.needed_text("technique");
-  row.preset = o.text("preset");
-  row.variant = o.text("variant");
+  row.technique = o.text("technique");
+  row.preset = o.text_if("preset");
+  row.variant = o.text_if("variant");
   row.effect = effect_of(o);
-  row.scene = with_effect(o.needed_text("scene"), row.effect);
-  row.kind = o.text("kind");
+  row.scene = with_effect(o.text("scene"), row.effect);
+  row.kind = o.text_if("kind");
   row.reads = reads_of(o);
   if (o.json().value("submitted", Json()).is_object())
     row.submitted = o.json()["submitted"];
   else
-    row.ms = milliseconds_of(o.needed_object("ms"));
-  row.ssim = o.number("ssim");
-  row.flip = o.number("flip");
-  row.flicker = o.number("flicker");
-  row.inconsistency = o.number("inconsistency");
-  row.rmse_to_truth = o.number("rmse_to_truth");
-  row.bias = o.number("bias");
-  row.ratio_to_hbao_plus = o.number("ratio_to_hbao_plus");
-  row.ratio_to_gather_floor = o.number("ratio_to_gather_floor");
-  row.ratio_to_copy_floor = o.number("ratio_to_copy_floor");
-  row.ratio_to_naive = o.number("ratio_to_naive");
-  row.ratio_to_native = o.number("ratio_to_native");
+    row.ms = milliseconds_of(o.object("ms"));
+  row.ssim = o.number_if("ssim");
+  row.flip = o.number_if("flip");
+  row.flicker = o.number_if("flicker");
+  row.inconsistency = o.number_if("inconsistency");
+  row.rmse_to_truth = o.number_if("rmse_to_truth");
+  row.bias = o.number_if("bias");
+  row.ratio_to_hbao_plus = o.number_if("ratio_to_hbao_plus");
+  row.ratio_to_gather_floor = o.number_if("ratio_to_gather_floor");
+  row.ratio_to_copy_floor = o.number_if("ratio_to_copy_floor");
+  row.ratio_to_naive = o.number_if("ratio_to_naive");
+  row.ratio_to_native = o.number_if("ratio_to_native");
   row.hbao_plus_rounds = round_ratios_of(o, "ratio_to_hbao_plus_rounds");
   row.gather_floor_rounds = round_ratios_of(o, "ratio_to_gather_floor_rounds");
   row.copy_floor_rounds = round_ratios_of(o, "ratio_to_copy_floor_rounds");
-  row.processes = o.numbers("processes");
-  row.own_floor_ms = o.number("own_floor_ms");
-  row.ratio_to_own_floor = o.number("ratio_to_own_floor");
-  row.ladder = ladder_of(o.object("ladder"));
-  for (const Object& n : o.list("naive")) row.naive.push_back({n.needed_text("part"), n.needed_number("ratio")});
-  for (const Object& s : o.list("spent_on")) row.spent_on.push_back({s.needed_text("what"), s.needed_number("share")});
-  for (const Object& p : o.list("passes"))
-    row.passes.push_back({p.needed_text("name"), milliseconds_of(p.needed_object("ms")), count_of(p)});
-  row.width = o.number("width");
-  row.height = o.number("height");
-  row.lanes = o.number("lanes");
-  row.samples = o.number("samples");
-  row.resolution = o.text("resolution");
-  row.math = o.text("math");
-  row.real = o.text("real");
-  row.storage = o.text("storage");
-  row.settings = o.object("settings").json();
-  row.image = o.text("image");
+  row.processes = o.numbers_if("processes");
+  row.own_floor_ms = o.number_if("own_floor_ms");
+  row.ratio_to_own_floor = o.number_if("ratio_to_own_floor");
+  row.ladder = ladder_of(o.object_if("ladder"));
+  for (const JsonObject& n : o.objects_if("naive")) row.naive.push_back({n.text("part"), n.number("ratio")});
+  for (const JsonObject& s : o.objects_if("spent_on")) row.spent_on.push_back({s.text("what"), s.number("share")});
+  for (const JsonObject& p : o.objects_if("passes"))
+    row.passes.push_back({p.text("name"), milliseconds_of(p.object("ms")), count_of(p)});
+  row.width = o.number_if("width");
+  row.height = o.number_if("height");
+  row.lanes = o.number_if("lanes");
+  row.samples = o.number_if("samples");
+  row.resolution = o.text_if("resolution");
+  row.math = o.text_if("math");
+  row.real = o.text_if("real");
+  row.storage = o.text_if("storage");
+  row.settings = o.object_if("settings").json();
+  row.image = o.text_if("image");
   return row;
 }
 
@@ -130,137 +140,139 @@ void set_kinds_apart(std::vector<Scene>& scenes) {
   }
 }
 
-Scene scene_of(const Object& o) {
+Scene scene_of(const JsonObject& o) {
   Scene scene;
-  scene.title = o.needed_text("name");
+  scene.title = o.text("name");
   scene.effect = effect_of(o);
   scene.name = with_effect(scene.title, scene.effect);
-  scene.kind = o.text("kind");
-  scene.own_class = scene.scene_class = o.text("class");
+  scene.kind = o.text_if("kind");
+  scene.own_class = scene.scene_class = o.text_if("class");
   if (scene.scene_class != "own") scene.scene_class = with_effect(scene.scene_class, scene.effect);
-  std::tie(scene.width, scene.height) = o.size("size");
-  scene.radius = o.number("radius");
-  scene.radius_from = o.text("radius_from");
-  scene.radius_pixels = o.number("radius_pixels");
-  scene.truth_noise = o.number("truth_noise");
-  scene.truth_image = o.text("truth_image");
-  const Object base = o.object("base");
-  scene.base = base.text("name");
-  scene.base_rmse = base.number("rmse_to_truth");
-  scene.base_bias = base.number("bias");
-  scene.white = o.number("white").value_or(1);
+  std::tie(scene.width, scene.height) = size_of(o);
+  scene.radius = o.number_if("radius");
+  scene.radius_from = o.text_if("radius_from");
+  scene.radius_pixels = o.number_if("radius_pixels");
+  scene.truth_noise = o.number_if("truth_noise");
+  scene.truth_image = o.text_if("truth_image");
+  const JsonObject base = o.object_if("base");
+  scene.base = base.text_if("name");
+  scene.base_rmse = base.number_if("rmse_to_truth");
+  scene.base_bias = base.number_if("bias");
+  scene.white = o.number_if("white").value_or(1);
   scene.peaks = peaks_of(o);
   return scene;
 }
 
-Growth growth_of(const Object& o) {
-  Growth growth{o.needed_text("technique"), o.needed_text("over"), o.text("scene"), o.needed_number("exponent")};
-  const std::vector<Object> points = o.list("points");
+Growth growth_of(const JsonObject& o) {
+  Growth growth{o.text("technique"), o.text("over"), o.text_if("scene"), o.number("exponent")};
+  const std::vector<JsonObject> points = o.objects_if("points");
   if (points.empty()) return growth;
-  growth.x_from = points.front().number("x");
-  growth.x_to = points.back().number("x");
-  growth.ms_from = points.front().number("ms");
-  growth.ms_to = points.back().number("ms");
+  growth.x_from = points.front().number_if("x");
+  growth.x_to = points.back().number_if("x");
+  growth.ms_from = points.front().number_if("ms");
+  growth.ms_to = points.back().number_if("ms");
   return growth;
 }
 
-PaperFigure paper_figure_of(const Object& o) {
-  return {o.text("table"), o.text("row"),     o.text("column"),       o.text("base"),
-          o.number("ms"),  o.number("ratio"), o.number("paper_ratio")};
+PaperFigure paper_figure_of(const JsonObject& o) {
+  return {o.text_if("table"), o.text_if("row"),     o.text_if("column"),       o.text_if("base"),
+          o.number_if("ms"),  o.number_if("ratio"), o.number_if("paper_ratio")};
 }
 
-Converged converged_of(const Object& o) {
-  return {o.needed_text("technique"),
-          with_effect(o.needed_text("scene"), effect_of(o)),
-          o.number("rmse_to_truth"),
-          o.number("bias"),
+Converged converged_of(const JsonObject& o) {
+  return {o.text("technique"),
+          with_effect(o.text("scene"), effect_of(o)),
+          o.number_if("rmse_to_truth"),
+          o.number_if("bias"),
           reads_of(o),
           effect_of(o)};
 }
 
-ScaleChange scale_change_of(const Object& o) {
-  return {o.needed_text("technique"), o.needed_text("scene"),  o.needed_text("from"),
-          o.needed_text("to"),        o.number("mean_change"), o.number("mae")};
+ScaleChange scale_change_of(const JsonObject& o) {
+  return {o.text("technique"),        o.text("scene"),   o.text("from"), o.text("to"),
+          o.number_if("mean_change"), o.number_if("mae")};
 }
 
-PlaneReading plane_reading_of(const Object& o) {
-  return {o.needed_text("technique"), o.needed_text("plane"), o.needed_number("least"),
-          o.number("mean"),           o.number("tilt"),       o.number("direction"),
-          o.text("camera"),           o.number("x"),          o.number("y")};
+PlaneReading plane_reading_of(const JsonObject& o) {
+  return {o.text("technique"),      o.text("plane"),     o.number("least"), o.number_if("mean"), o.number_if("tilt"),
+          o.number_if("direction"), o.text_if("camera"), o.number_if("x"),  o.number_if("y")};
 }
 
-SequenceRow sequence_row_of(const Object& o) {
-  const Object worst = o.object("worst");
-  return {.technique = o.needed_text("technique"),
-          .preset = o.text("preset"),
+SequenceRow sequence_row_of(const JsonObject& o) {
+  const JsonObject worst = o.object_if("worst");
+  return {.technique = o.text("technique"),
+          .preset = o.text_if("preset"),
           .temporal = o.json().value("temporal", Json(false)) == Json(true),
-          .ms = milliseconds_of(o.needed_object("ms")),
-          .ratio_to_hbao_plus = o.number("ratio_to_hbao_plus"),
-          .rmse = o.number("rmse"),
-          .worst_rmse = worst.number("rmse"),
-          .worst_frame = worst.number("frame"),
-          .ssim = o.number("ssim"),
-          .flicker = o.number("flicker")};
+          .ms = milliseconds_of(o.object("ms")),
+          .ratio_to_hbao_plus = o.number_if("ratio_to_hbao_plus"),
+          .rmse = o.number_if("rmse"),
+          .worst_rmse = worst.number_if("rmse"),
+          .worst_frame = worst.number_if("frame"),
+          .ssim = o.number_if("ssim"),
+          .flicker = o.number_if("flicker")};
 }
 
-std::optional<Sequence> sequence_of(const Object& o) {
+std::optional<Sequence> sequence_of(const JsonObject& o) {
   Sequence sequence;
-  for (const Object& row : o.list("rows")) sequence.rows.push_back(sequence_row_of(row));
+  for (const JsonObject& row : o.objects_if("rows")) sequence.rows.push_back(sequence_row_of(row));
   if (sequence.rows.empty()) return {};
-  sequence.shot = o.text("shot");
+  sequence.shot = o.text_if("shot");
   if (const Json frames = o.json().value("frames", Json::array()); frames.is_array()) sequence.frames = frames.size();
-  std::tie(sequence.width, sequence.height) = o.size("size");
-  sequence.radius = o.number("radius");
-  sequence.truth_rays = o.number("truth_rays");
-  sequence.truth_change = o.number("truth_change");
+  std::tie(sequence.width, sequence.height) = size_of(o);
+  sequence.radius = o.number_if("radius");
+  sequence.truth_rays = o.number_if("truth_rays");
+  sequence.truth_change = o.number_if("truth_change");
   return sequence;
 }
 
-std::map<std::string, HeldCases> stability_of(const Object& o) {
+std::map<std::string, HeldCases> stability_of(const JsonObject& o) {
   std::map<std::string, HeldCases> stability;
   for (const auto& [technique, counts] : o.json().items()) {
-    const Object each = o.needed_object(technique.c_str());
-    stability[technique] = {each.needed_count("held"), each.needed_count("cases")};
+    const JsonObject each = o.object(technique);
+    stability[technique] = {size_t(each.whole("held")), size_t(each.whole("cases"))};
   }
   return stability;
 }
 
-SetFacts set_of(const Object& o) { return {o.text("name"), o.text("part"), o.text("hash"), o.number("seed")}; }
+SetFacts set_of(const JsonObject& o) {
+  return {o.text_if("name"), o.text_if("part"), o.text_if("hash"), o.number_if("seed")};
+}
 
-Measurements content_of(const Object& o) {
+Measurements content_of(const JsonObject& o) {
   Measurements m;
-  m.device = o.text("device");
-  m.cpu = o.text("cpu");
-  m.driver = o.text("driver");
-  m.date = o.text("date");
-  m.commit = o.text("commit");
-  m.gloam = o.text("gloam");
-  m.command = o.texts("command").value_or(std::vector<std::string>());
-  m.set = set_of(o.object("set"));
-  m.cores = o.number("cores");
-  m.rounds = o.number("rounds");
-  m.rays = o.number("rays");
-  for (const Object& each : o.list("scenes")) m.scenes.push_back(scene_of(each));
+  m.device = o.text_if("device");
+  m.cpu = o.text_if("cpu");
+  m.driver = o.text_if("driver");
+  m.date = o.text_if("date");
+  m.commit = o.text_if("commit");
+  m.gloam = o.text_if("gloam");
+  m.command = o.texts_if("command").value_or(std::vector<std::string>());
+  m.set = set_of(o.object_if("set"));
+  m.cores = o.number_if("cores");
+  m.rounds = o.number_if("rounds");
+  m.rays = o.number_if("rays");
+  for (const JsonObject& each : o.objects_if("scenes")) m.scenes.push_back(scene_of(each));
   set_kinds_apart(m.scenes);
-  for (const Object& each : o.needed_list("results")) {
+  for (const JsonObject& each : o.objects("results")) {
     Row row = row_of(each);
     (row.submitted.is_null() ? m.rows : m.submitted).push_back(std::move(row));
   }
-  for (const Object& each : o.list("growth")) m.growth.push_back(growth_of(each));
-  for (const Object& each : o.list("skipped"))
-    m.skipped.push_back({each.text("technique"), each.text("preset"), each.text("scene"), each.text("why")});
-  for (const Object& each : o.list("left_out")) {
-    if (const std::string what = each.text("what"); what != "everything" && what != "rounds") continue;
-    const std::string variant = each.text("variant");
-    m.skipped.push_back({each.text("technique"), each.text("preset") + (variant.empty() ? "" : ", " + variant),
-                         each.text("scene"), "left out to end in time; --all measures it"});
+  for (const JsonObject& each : o.objects_if("growth")) m.growth.push_back(growth_of(each));
+  for (const JsonObject& each : o.objects_if("skipped"))
+    m.skipped.push_back(
+        {each.text_if("technique"), each.text_if("preset"), each.text_if("scene"), each.text_if("why")});
+  for (const JsonObject& each : o.objects_if("left_out")) {
+    if (const std::string what = each.text_if("what"); what != "everything" && what != "rounds") continue;
+    const std::string variant = each.text_if("variant");
+    m.skipped.push_back({each.text_if("technique"), each.text_if("preset") + (variant.empty() ? "" : ", " + variant),
+                         each.text_if("scene"), "left out to end in time; --all measures it"});
   }
-  for (const Object& each : o.list("paper")) m.paper.push_back(paper_figure_of(each));
-  for (const Object& each : o.list("converged")) m.converged.push_back(converged_of(each));
-  for (const Object& each : o.list("scales")) m.scales.push_back(scale_change_of(each));
-  for (const Object& each : o.list("planes")) m.planes.push_back(plane_reading_of(each));
-  m.sequence = sequence_of(o.object("sequence"));
-  m.stability = stability_of(o.object("stability"));
+  for (const JsonObject& each : o.objects_if("paper")) m.paper.push_back(paper_figure_of(each));
+  for (const JsonObject& each : o.objects_if("converged")) m.converged.push_back(converged_of(each));
+  for (const JsonObject& each : o.objects_if("scales")) m.scales.push_back(scale_change_of(each));
+  for (const JsonObject& each : o.objects_if("planes")) m.planes.push_back(plane_reading_of(each));
+  m.sequence = sequence_of(o.object_if("sequence"));
+  m.stability = stability_of(o.object_if("stability"));
   return m;
 }
 
@@ -292,7 +304,7 @@ Measurements read_file(const std::filesystem::path& file) {
 }  // namespace
 
 Measurements measurements_of(const Json& document, const std::string& name) {
-  Measurements m = content_of(Object(document, name, ""));
+  Measurements m = content_of(JsonObject(document, {name, "remove the file, and gloam bench makes it anew"}));
   for (const auto* rows : {&m.rows, &m.submitted}) add_scenes_of_rows(m, *rows);
   return m;
 }

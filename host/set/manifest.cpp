@@ -3,14 +3,16 @@
 #include <algorithm>
 
 #include "base/files.h"
+#include "base/json_object.h"
 #include "base/json_text.h"
 #include "base/lists.h"
 #include "gloam/error.h"
-#include "set/json_fields.h"
 #include "set/sha256.h"
 
 namespace gloam::sets {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 bool is_item_name(const std::string& name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
@@ -26,9 +28,9 @@ bool is_inside(const std::string& file) {
   });
 }
 
-std::vector<SetFile> files_of(const JsonFields& fields, size_t count) {
+std::vector<SetFile> files_of(const JsonObject& fields, size_t count) {
   std::vector<SetFile> files;
-  for (const JsonFields& one : fields.objects("files")) {
+  for (const JsonObject& one : fields.objects("files")) {
     SetFile file{one.text("file"), one.text("sha256")};
     if (!is_inside(file.file)) one.refuse("file", "it must be a path inside the set's folder, without . and ..");
     if (!is_sha256(file.sha256)) one.refuse("sha256", "it must be 64 hexadecimal digits in lower case");
@@ -39,18 +41,18 @@ std::vector<SetFile> files_of(const JsonFields& fields, size_t count) {
   return files;
 }
 
-SetTruth truth_of(const JsonFields& fields, size_t frames) {
+SetTruth truth_of(const JsonObject& fields, size_t frames) {
   SetTruth truth;
   truth.effect = fields.text("effect");
-  truth.rays = fields.whole("rays", 0, largest);
+  truth.rays = fields.whole("rays");
   truth.noise = fields.number("noise");
   if (truth.noise < 0) fields.refuse("noise", "0 and more are allowed");
-  if (fields.find("best_error")) truth.best_error = fields.number("best_error");
+  truth.best_error = fields.number_if("best_error");
   truth.files = files_of(fields, frames);
   return truth;
 }
 
-SetItem item_of(const JsonFields& fields) {
+SetItem item_of(const JsonObject& fields) {
   SetItem item;
   item.name = fields.text("name");
   if (!is_item_name(item.name)) fields.refuse("name", "small letters, digits and - are allowed");
@@ -61,7 +63,7 @@ SetItem item_of(const JsonFields& fields) {
   if (size.size() != 2) fields.refuse("size", "it must be [width, height]");
   item.width = size[0], item.height = size[1];
   item.views = fields.texts("views");
-  if (fields.find("frames")) item.frames = fields.wholes("frames", 0, largest);
+  if (fields.find("frames")) item.frames = fields.wholes("frames");
   if ((item.kind == "sequence") == item.frames.empty())
     fields.refuse("frames", "a sequence has a list of numbers, other items have none");
   item.radius = fields.number("radius");
@@ -69,11 +71,11 @@ SetItem item_of(const JsonFields& fields) {
   item.licence = fields.text("licence");
   const size_t frames = std::max<size_t>(item.frames.size(), 1);
   item.files = files_of(fields, frames);
-  for (const JsonFields& one : fields.objects("truths")) {
-    item.truths.push_back(truth_of(one, frames));
-    for (size_t i = 0; i + 1 < item.truths.size(); ++i) {
-      if (item.truths[i].effect == item.truths.back().effect) one.refuse("effect", "it has one truth already");
-    }
+  for (const JsonObject& one : fields.objects("truths")) {
+      item.truths.push_back(truth_of(one, frames));
+      for (size_t i = 0; i + 1 < item.truths.size(); ++i) {
+        if (item.truths[i].effect == item.truths.back().effect) one.refuse("effect", "it has one truth already");
+      }
   }
   return item;
 }
@@ -121,8 +123,8 @@ const std::vector<std::string>& item_kinds() {
 }
 
 Manifest manifest_of(const std::string& text, const std::string& name) {
-  const Json document = parse_document(text, name);
-  const JsonFields fields(document, name, "");
+  const Json document = json_of_text(text, name);
+  const JsonObject fields(document, {name});
   Manifest manifest;
   manifest.set = fields.text("set");
   manifest.part = fields.text("part");
@@ -137,7 +139,7 @@ Manifest manifest_of(const std::string& text, const std::string& name) {
   manifest.commit = fields.text("commit");
   manifest.licence = fields.text("licence");
   manifest.hash = fields.text("hash");
-  for (const JsonFields& one : fields.objects("items")) {
+  for (const JsonObject& one : fields.objects("items")) {
     SetItem item = item_of(one);
     if (find_item(manifest, item.name)) one.refuse("name", "an item before it has that name");
     manifest.items.push_back(std::move(item));

@@ -2,35 +2,40 @@
 
 #include <algorithm>
 
+#include "base/json_object.h"
+#include "base/json_text.h"
 #include "base/lists.h"
 #include "gloam/error.h"
 #include "scene/fingerprint.h"
 #include "scene/reference_kinds.h"
 #include "set/hard_frames.h"
-#include "set/json_fields.h"
 #include "set/manifest.h"
 #include "set/set_files.h"
 
 namespace gloam::sets {
 namespace {
 
-std::string text_or(const JsonFields& fields, const char* key, const std::string& otherwise) {
-  return fields.find(key) ? fields.text(key) : otherwise;
+/// An object of texts, in the order of its keys.
+std::vector<std::pair<std::string, std::string>> texts_by_name(const JsonObject& fields, const char* key) {
+  std::vector<std::pair<std::string, std::string>> all;
+  const JsonObject texts = fields.object_if(key);
+  for (const auto& [name, value] : texts.json().items()) all.emplace_back(name, texts.text(name));
+  return all;
 }
 
-TruthRecipe truth_of(const JsonFields& fields) {
+TruthRecipe truth_of(const JsonObject& fields) {
   fields.check_keys({"effect", "rays", "best_error"});
   TruthRecipe truth;
   truth.effect = fields.text("effect");
   if (!contains(reference_names(), truth.effect)) fields.refuse("effect", "there are " + enumerate(reference_names()));
   truth.rays = fields.whole("rays", 0, 1 << 24);
-  if (fields.find("best_error")) truth.best_error = fields.number("best_error");
+  truth.best_error = fields.number_if("best_error");
   return truth;
 }
 
-void read_sequence(ItemRecipe& item, const JsonFields& fields, const SceneRecipe& scene) {
+void read_sequence(ItemRecipe& item, const JsonObject& fields, const SceneRecipe& scene) {
   item.shot = fields.text("shot");
-  item.frames = fields.wholes("frames", 1, largest);
+  item.frames = fields.wholes("frames", 1);
   const auto shot = std::find_if(scene.shots.begin(), scene.shots.end(),
                                  [&](const ShotRecipe& known) { return known.name == item.shot; });
   if (shot == scene.shots.end()) fields.refuse("shot", "the scene has none of that name (gloam list shots)");
@@ -38,30 +43,24 @@ void read_sequence(ItemRecipe& item, const JsonFields& fields, const SceneRecipe
     fields.refuse("frames", fmt::format("the shot has frames from 1 to {}", shot->frames));
 }
 
-void read_scene(ItemRecipe& item, const JsonFields& fields) {
+void read_scene(ItemRecipe& item, const JsonObject& fields) {
   item.scene = fields.text("scene");
   const SceneRecipe* scene = find_builtin_scene(item.scene);
   if (!scene) fields.refuse("scene", "it must be a built-in scene (gloam list scenes)");
-  if (const Json* settings = fields.find("settings")) {
-    if (!settings->is_object()) fields.refuse("settings", "it must be an object of texts");
-    for (const auto& [name, value] : settings->items()) {
-      if (!value.is_string()) fields.refuse("settings", "it must be an object of texts");
-      item.settings.emplace_back(name, value.get<std::string>());
-    }
-  }
-  item.camera = text_or(fields, "camera", "");
+  for (auto& [name, value] : texts_by_name(fields, "settings")) item.settings.emplace_back(name, value);
+  item.camera = fields.text_if("camera");
   item.with_light = fields.find("light") != nullptr;
   if (item.kind == "sequence") read_sequence(item, fields, *scene);
   if (item.kind == "display") item.display = fields.text("display");
   if (item.kind == "display" && display_text(item.display).empty())
     fields.refuse("display", "it must be a file of data/displays, without .json");
   if (item.kind != "eyes") return;
-  const JsonFields eyes = fields.object("eyes");
+  const JsonObject eyes = fields.object("eyes");
   item.eyes = StereoRig{eyes.number("distance")};
-  if (eyes.find("convergence")) item.eyes->convergence = eyes.number("convergence");
+  item.eyes->convergence = eyes.number_if("convergence");
 }
 
-ItemRecipe item_of(const JsonFields& fields, const std::vector<int>& usual_size) {
+ItemRecipe item_of(const JsonObject& fields, const std::vector<int>& usual_size) {
   fields.check_keys({"name", "kind", "size", "radius", "light", "truths", "scene", "settings", "camera", "shot",
                      "frames", "eyes", "display", "hard"});
   ItemRecipe item;
@@ -73,7 +72,7 @@ ItemRecipe item_of(const JsonFields& fields, const std::vector<int>& usual_size)
   item.width = size[0], item.height = size[1];
   item.radius = fields.number("radius");
   if (!(item.radius > 0)) fields.refuse("radius", "more than 0 is allowed");
-  for (const JsonFields& truth : fields.objects("truths")) item.truths.push_back(truth_of(truth));
+  for (const JsonObject& truth : fields.objects("truths")) item.truths.push_back(truth_of(truth));
   if (item.kind != "hard") {
     read_scene(item, fields);
     return item;
@@ -108,24 +107,18 @@ std::string display_text(const std::string& name) {
 }
 
 Recipe recipe_of(const std::string& text, const std::string& name) {
-  const Json document = parse_document(text, name);
-  const JsonFields fields(document, name, "");
+  const nlohmann::ordered_json document = json_of_text(text, name);
+  const JsonObject fields(document, {name});
   fields.check_keys({"set", "summary", "licence", "size", "layers", "frozen_with", "items", "hashes"});
   Recipe recipe;
   recipe.name = fields.text("set");
   recipe.summary = fields.text("summary");
   recipe.licence = fields.text("licence");
   recipe.layers = fields.whole("layers", 0, 64);
-  recipe.frozen_with = text_or(fields, "frozen_with", "");
+  recipe.frozen_with = fields.text_if("frozen_with");
   const std::vector<int> size = fields.wholes("size", 1, 1 << 16);
-  for (const JsonFields& item : fields.objects("items")) recipe.items.push_back(item_of(item, size));
-  if (const Json* hashes = fields.find("hashes")) {
-    if (!hashes->is_object()) fields.refuse("hashes", "it must be an object of texts");
-    for (const auto& [file, hash] : hashes->items()) {
-      if (!hash.is_string()) fields.refuse("hashes", "it must be an object of texts");
-      recipe.hashes[file] = hash.get<std::string>();
-    }
-  }
+  for (const JsonObject& item : fields.objects("items")) recipe.items.push_back(item_of(item, size));
+  for (auto& [file, hash] : texts_by_name(fields, "hashes")) recipe.hashes[file] = hash;
   return recipe;
 }
 
