@@ -3,6 +3,7 @@ import json
 import pathlib
 import shutil
 
+import kept_results
 from intervals import ERROR, EXACT, RATIO
 from markdown import Number
 
@@ -65,13 +66,13 @@ def merged(documents):
 def write(entry, made, kept, root, lab):
     """The document, and the page that is written from it and those beside it, if any."""
     if not entry.pages:
-        shutil.copy(made, kept)
+        kept_results.keep(made, kept)
         return
     page, flags = entry.pages
     path, images = pathlib.Path(root) / page, made.parent / "images"
     beside = kept.parent / "images"  # where the document names its pictures, for as long as the page is made
     before = path.read_text()
-    shutil.copy(made, kept)
+    kept_results.keep(made, kept)
     if images.is_dir():
         shutil.copytree(images, beside, dirs_exist_ok=True)
     try:

@@ -34,7 +34,7 @@ def nearest_on_the_set():
     errors = {}
     for row in results:
         is_counted = (row["effect"], row["preset"], row["variant"], row["depths"], row["views"]) == ("ao", "medium", "", ["depth"], 1)
-        if is_counted and row["rmse_to_truth"] is not None:
+        if is_counted and "rmse_to_truth" in row:
             errors.setdefault(row["scene"], {})[row["technique"]] = row["rmse_to_truth"]
     frames = [by_technique for by_technique in errors.values() if "evidence" in by_technique]
     return sum(min(frame.values()) == frame["evidence"] for frame in frames), len(frames)
