@@ -6,14 +6,8 @@ namespace gloam::bench {
 namespace {
 
 Json document_of(const PaperTime& t) {
-  return {{"table", t.table},
-          {"row", t.row},
-          {"column", t.column},
-          {"ms", t.ms},
-          {"ratio", or_null(t.ratio)},
-          {"paper_ms", or_null(t.paper_ms)},
-          {"paper_ratio", or_null(t.paper_ratio)},
-          {"base", t.base}};
+  return report::json_of(
+      report::PaperFigure{t.table, t.row, t.column, t.ms, t.ratio, t.paper_ms, t.paper_ratio, t.base});
 }
 
 Json document_of(const PaperFact& f) {
@@ -32,7 +26,10 @@ Json list_of(const std::vector<Thing>& things) {
 }  // namespace
 
 Json document_of(const PaperResult& result, const PaperOptions& options, const DeviceInfo& device) {
-  Json document = origin_of(device);
+  report::Measurements origin = results_on(device);
+  origin.is_of_frames = false;
+  Json document = report::document_of(origin);
+  for (const char* list : {"results", "skipped", "paper"}) document.erase(list);
   document.update({{"rounds", options.rounds},
                    {"width", options.width},
                    {"height", options.height},

@@ -39,7 +39,9 @@ void JsonObject::refuse(const std::string& key, const std::string& expected) con
 
 const JsonObject::Json& JsonObject::needed(const std::string& key) const {
   const Json* value = find(key);
-  if (!value) refuse(key, file_.advice.empty() ? "it must be given" : file_.advice);
+  if (!value)
+    throw Error("{}: {} is missing; {}", file(), path_of(key),
+                file_.advice.empty() ? "it must be given" : file_.advice);
   return *value;
 }
 

@@ -47,7 +47,7 @@ Channel every_second(const Channel& from, float outside) {
 std::string size_of(const Frame& frame) { return fmt::format("{}x{}", frame.width(), frame.height()); }
 
 /// Compares the pixels of the smaller image that show a surface.
-ScaleFacts change(const Frame& fine, const Channel& fine_ao, const Frame& coarse, const Channel& coarse_ao) {
+ScaleChange change(const Frame& fine, const Channel& fine_ao, const Frame& coarse, const Channel& coarse_ao) {
   const Channel& depth = coarse.views.front().planes.at("depth").channels[0];
   double sum = 0, sum_absolute = 0;
   long long count = 0;
@@ -60,10 +60,10 @@ ScaleFacts change(const Frame& fine, const Channel& fine_ao, const Frame& coarse
       ++count;
     }
   }
-  ScaleFacts facts{.from = size_of(coarse), .to = size_of(fine)};
+  ScaleChange facts{.from = size_of(coarse), .to = size_of(fine)};
   if (count > 0) {
     facts.mean_change = sum / double(count);
-    facts.mean_absolute = sum_absolute / double(count);
+    facts.mae = sum_absolute / double(count);
   }
   return facts;
 }
@@ -124,7 +124,7 @@ struct Reading {
   const Technique* technique;
   std::string plane;
   Frame (*make)(const Technique&, const Frame&, double radius, Device&);
-  PlaneFacts least = {.least = INFINITY};
+  PlaneReading least = {.least = INFINITY};
   double sum = 0;
   long long count = 0;
   bool has_failed = false;
@@ -138,15 +138,15 @@ void read_plane(Reading& reading, const PlaneCase& test, const Channel& ao) {
       const double value = ao.at(x, y);
       reading.sum += value;
       ++reading.count;
-      if (value < reading.least.least) reading.least = {"", "", value, 1, test.camera, test.tilt, test.direction, x, y};
+      if (value < reading.least.least) reading.least = {"", "", value, 1, test.tilt, test.direction, test.camera, x, y};
     }
   }
 }
 
 /// The changes of a technique's result between neighbouring sizes of a frame, the largest size first.
-std::vector<ScaleFacts> changes_of(const Technique& technique, const std::array<const Frame*, 3>& sizes, double radius,
-                                   Device& device) {
-  std::vector<ScaleFacts> all;
+std::vector<ScaleChange> changes_of(const Technique& technique, const std::array<const Frame*, 3>& sizes, double radius,
+                                    Device& device) {
+  std::vector<ScaleChange> all;
   std::optional<Frame> finer;
   for (size_t i = 0; i < sizes.size(); ++i) {
     Frame result = filtered(technique, *sizes[i], radius, device);
@@ -195,14 +195,14 @@ Frame every_second_pixel(const Frame& frame) {
   return out;
 }
 
-std::vector<ScaleFacts> measure_scales(const std::vector<const Technique*>& techniques, const Frame& frame,
-                                       const std::string& scene, double radius, Device& device,
-                                       const OnFailure& on_failure) {
-  std::vector<ScaleFacts> all;
+std::vector<ScaleChange> measure_scales(const std::vector<const Technique*>& techniques, const Frame& frame,
+                                        const std::string& scene, double radius, Device& device,
+                                        const OnFailure& on_failure) {
+  std::vector<ScaleChange> all;
   const Frame half = every_second_pixel(frame), quarter = every_second_pixel(half);
   for (const Technique* technique : over_one_layer(techniques)) {
     try {
-      for (ScaleFacts& facts : changes_of(*technique, {&frame, &half, &quarter}, radius, device)) {
+      for (ScaleChange& facts : changes_of(*technique, {&frame, &half, &quarter}, radius, device)) {
         facts.technique = technique->name;
         facts.scene = scene;
         all.push_back(std::move(facts));
@@ -214,8 +214,8 @@ std::vector<ScaleFacts> measure_scales(const std::vector<const Technique*>& tech
   return all;
 }
 
-std::vector<PlaneFacts> measure_planes(const std::vector<const Technique*>& techniques, int width, int height,
-                                       Device& device, const OnFailure& on_failure) {
+std::vector<PlaneReading> measure_planes(const std::vector<const Technique*>& techniques, int width, int height,
+                                         Device& device, const OnFailure& on_failure) {
   constexpr double distance = 2, radius = 0.5;
   std::vector<Reading> readings;
   for (const Technique* t : over_one_layer(techniques)) {
@@ -230,10 +230,10 @@ std::vector<PlaneFacts> measure_planes(const std::vector<const Technique*>& tech
       }
     }
   }
-  std::vector<PlaneFacts> all;
+  std::vector<PlaneReading> all;
   for (Reading& reading : readings) {
     if (reading.has_failed) continue;
-    PlaneFacts facts = reading.least;
+    PlaneReading facts = reading.least;
     facts.technique = reading.technique->name;
     facts.plane = reading.plane;
     if (reading.count > 0) facts.mean = reading.sum / double(reading.count);

@@ -51,7 +51,7 @@ std::shared_ptr<const Frame> share(Frame frame) { return std::make_shared<const 
 std::shared_ptr<const Frame> same(const Frame& frame) { return {std::shared_ptr<const Frame>(), &frame}; }
 
 Growth measured(const std::string& over, std::vector<Case> cases, Device& device, int rounds) {
-  Growth growth{over, {}};
+  Growth growth{.over = over};
   if (cases.size() < 2) return growth;
   std::vector<std::unique_ptr<TimedPlan>> plans;
   std::vector<Contender> contenders;
@@ -201,7 +201,11 @@ std::vector<Growth> measure_growth(const Technique& technique, const Frame& fram
   std::vector<Growth> all;
   const auto add = [&](const std::string& over, std::vector<Case> cases) {
     Growth growth = measured(over, std::move(cases), device, options.rounds);
-    if (exponent(growth.points)) all.push_back(std::move(growth));
+    const std::optional<double> power = exponent(growth.points);
+    if (!power) return;
+    growth.technique = technique.name;
+    growth.exponent = *power;
+    all.push_back(std::move(growth));
   };
   add("pixels", over_pixels(plan, frame));
   add("samples", over_samples(technique, frame, options.radius));

@@ -8,22 +8,16 @@
 #include "gloam/device.h"
 #include "gloam/frame.h"
 #include "gloam/technique.h"
+#include "results/measurements.h"
 
 namespace gloam::bench {
 
-struct GrowthPoint {
-  double x;   ///< pixels, samples per pixel, pixels of radius, layers or views
-  double ms;  ///< median
-};
+using report::Growth;
+using report::GrowthPoint;
 
 /// The exponent p of ms = c * x^p, by least squares over the logarithms. None for fewer than two different x, or if a value is
 /// not above 0.
 std::optional<double> exponent(const std::vector<GrowthPoint>& points);
-
-struct Growth {
-  std::string over;  ///< "pixels", "samples", "radius", "layers" or "views"
-  std::vector<GrowthPoint> points;
-};
 
 struct GrowthOptions {
   double radius = 0.5;  ///< scene units
@@ -45,7 +39,7 @@ Frame with_layers(const Frame& frame, int layers);
 /// - radius: a quarter to four times; x is in pixels at the median depth,
 /// - layers: if it, or the maker of its stochastic depth, reads peeled layers: 1, 2, 4 ... of those in the frame,
 /// - views: 1, 2 and 4, unless it needs a fixed number.
-/// Anything a technique does not have is left out. Throws as `gloam::run` does.
+/// Anything a technique does not have is left out, and so is what has no exponent. Throws as `gloam::run` does.
 std::vector<Growth> measure_growth(const Technique& technique, const Frame& frame, Device& device,
                                    const GrowthOptions& options);
 

@@ -12,25 +12,16 @@
 #include "measure/plans.h"
 #include "measure/similarity.h"
 #include "measure/subject.h"
+#include "results/measurements.h"
 
 namespace gloam::bench {
+
+using report::Ladder;
 
 /// Errors of the shipped result to the truth: the total. None without a truth.
 struct Errors {
   std::optional<double> rmse;
   std::optional<double> bias;  ///< above 0: too bright
-};
-
-/// RMSE of each image to the one a step above; none if one of the two is missing.
-struct Ladder {
-  std::optional<double> t0w;  ///< truth with the technique's own contribution, to the truth
-  std::optional<double> t1;   ///< over all peeled layers and converged, to the image above
-  std::optional<double> t2;   ///< over the given layers, converged, to the image above
-  std::optional<double> t12;  ///< the same to T0w, where the registry has no form over peeled layers: both steps in one
-  std::optional<double> t3;   ///< with its own samples, in double, to the image above
-  std::optional<double> t4_bias;   ///< filtered converged image, to the converged image
-  std::optional<double> t4_noise;  ///< filtered, to the filtered converged image
-  std::optional<double> t5;        ///< shipped result, to the same in double
 };
 
 /// Images of techniques on one frame. Images that many presets share are computed once.

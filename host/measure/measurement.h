@@ -20,6 +20,9 @@
 
 namespace gloam::bench {
 
+using report::LeftOut;
+using report::Skipped;
+
 /// The rows whose error is split into steps (the ladder), which takes longest.
 enum class LadderFor { none, presets, all };
 
@@ -66,55 +69,14 @@ struct Row : Racer {
   std::string image;  ///< below the folder; empty: none
 };
 
-struct Skipped {
-  std::string technique, preset, scene, why;  ///< no preset: all presets; no scene: all scenes
-};
-
-/// One scene, and one effect on it.
-struct SceneFacts {
-  std::string name, scene_class, effect;
-  int width = 0, height = 0;
-  Radius radius;
-  double radius_pixels = 0;
-  std::optional<double> truth_noise,
-      truth_rays;           ///< noise: RMS; rays: per pixel, for a given truth if its header states them
-  std::string base;         ///< what there is without a technique: "white", "black"
-  Errors base_errors;       ///< its errors; none without a truth
-  double white = 1;         ///< the value that pictures show as white
-  std::string truth_image;  ///< below the folder; empty: none
-  bool traced = false;      ///< the truth was traced from the scene
-  std::vector<std::string> made, reused;
-  Peaks peaks;  ///< of the device on it
-};
-
-/// What a time limit left out.
-struct LeftOut {
-  std::string technique, preset, variant;  ///< empty: all
-  std::string scene, effect;
-  std::string
-      what;  ///< "everything", "rounds", "ladder", "SSIM and FLIP", "own floor", "growth", "checks", "naive kernels"
-};
-
-struct GrowthFacts {
-  std::string technique, scene;
-  Growth growth;
-};
-
-/// The limit for many samples, without a filter.
-struct ConvergedFacts {
-  const Technique* technique = nullptr;
-  std::string scene, effect;
-  Errors errors;
-};
-
 struct Measurement {
   std::vector<std::unique_ptr<Row>> rows;
   std::vector<Skipped> skipped;
-  std::vector<GrowthFacts> growth;
-  std::vector<ConvergedFacts> converged;
-  std::vector<ScaleFacts> scales;
-  std::vector<PlaneFacts> planes;
-  std::vector<SceneFacts> scenes;
+  std::vector<Growth> growth;
+  std::vector<report::Converged> converged;
+  std::vector<ScaleChange> scales;
+  std::vector<PlaneReading> planes;
+  std::vector<report::Scene> scenes;
   std::vector<std::string> notes;  ///< one sentence each
   std::vector<LeftOut> left_out;
 };

@@ -5,6 +5,7 @@
 
 #include "gloam/error.h"
 #include "measure/baselines.h"
+#include "measure/document.h"
 #include "measure/intervals.h"
 #include "measure/measures.h"
 #include "measure/naive.h"
@@ -127,7 +128,7 @@ AgainstNaive part_of(const char* name, const Channel& naive, const Plan& plan, c
   const Channel& ours = run.frame.views[0].planes.at(plan.outputs.front()).channels[0];
   return {.part = name,
           .mean_difference = mean_difference(naive, ours),
-          .greatest_difference = greatest_difference(naive, ours)};
+          .max_difference = greatest_difference(naive, ours)};
 }
 
 }  // namespace
@@ -356,12 +357,15 @@ void Race::add_naive_ratios(size_t index) {
   // The plan may begin with passes that make normals.
   const size_t before = passes.size() - naive.passes(), own = own_passes_in(racer.timed->plan());
   for (AgainstNaive& part : racer.against_naive) {
+    Series ms, naive_ms;
     const size_t first = part.part == "filter" ? own : 0, end = part.part == "estimate" ? own : naive.passes();
     for (size_t i = first; i < end; ++i) {
-      add(part.ms, passes[before + i].ms);
-      add(part.naive_ms, naive.ms(i));
+      add(ms, passes[before + i].ms);
+      add(naive_ms, naive.ms(i));
     }
-    part.ratio = ratio(part.ms, part.naive_ms);
+    part.ms = times_of(ms);
+    part.naive_ms = times_of(naive_ms);
+    part.ratio = ratio(ms, naive_ms);
   }
 }
 

@@ -19,29 +19,14 @@ class Baselines;
 class Naive;
 struct PlainFrame;
 
-/// A part of a plan's time.
-struct Share {
-  std::string what;  ///< "gathers", "arithmetic of the estimate" (`split_estimate`), or a pass: "bilateral/horizontal"
-  double share = 0;  ///< 0 to 1
-};
+using report::AgainstNaive;
+using report::Peaks;
+using report::RoundRatios;
+using report::Share;
 
 /// Splits the time of a technique's own passes into that of its gathers alone (`gathers`: as a share) and the rest. One part if
 /// the gathers alone take longer: then they are no part of it.
 std::vector<Share> split_estimate(double ms, double gathers);
-
-/// A part of a plan, and the naive kernels that compute the same.
-struct AgainstNaive {
-  std::string part;  ///< "estimate", "filter" or "both"
-  Series ms, naive_ms;
-  double ratio = 0;
-  /// Mean and largest absolute difference between the two results up to this part, over all pixels; none for the filter alone.
-  std::optional<double> mean_difference, greatest_difference;
-};
-
-/// The ratios of each round: of times, and of what the process's threads computed (docs/benchmarking.md). Empty where there are none.
-struct RoundRatios {
-  Series ms, cpu;
-};
 
 /// A contender and its results. A ratio is its time over the other's; none if the other takes no part. For a technique that makes
 /// an image of only the first of two views, `to_hbao_plus` is to HBAO+ on the first view.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "base/json_text.h"
 #include "base/statistics.h"
 #include "gloam/frame_numbers.h"
 #include "gloam/option.h"
@@ -16,18 +15,18 @@ std::vector<int> numbers_of(const MeasuredSequence& sequence) {
   return numbers;
 }
 
-Json json_of(const SequenceRow& row) {
-  return {{"technique", row.variation.technique->name},
-          {"preset", row.variation.name()},
-          {"temporal", row.variation.temporal},
-          {"ms", milliseconds(row.ms)},
-          {"ratio_to_hbao_plus", or_null(row.ratio)},
-          {"rmse", row.rmse},
-          {"worst", {{"frame", row.worst_frame}, {"rmse", row.worst_rmse}}},
-          {"ssim", row.ssim},
-          {"flicker", or_null(row.flicker.flicker())},
-          {"new_rmse", or_null(row.flicker.new_rmse())},
-          {"old_rmse", or_null(row.flicker.old_rmse())}};
+report::SequenceRow result_of(const SequenceRow& row) {
+  return {row.variation.technique->name,
+          row.variation.name(),
+          row.variation.temporal,
+          times_of(row.ms),
+          row.ratio,
+          row.rmse,
+          {row.worst_frame, row.worst_rmse},
+          row.ssim,
+          row.flicker.flicker(),
+          row.flicker.new_rmse(),
+          row.flicker.old_rmse()};
 }
 
 /// ".0123"
@@ -39,33 +38,29 @@ std::string error_words(const std::optional<double>& error) {
 
 }  // namespace
 
-Json document_of(const MeasuredSequence& sequence, const SequenceMeasurement& measurement, const DeviceInfo& device) {
-  Json rows = Json::array(), skipped = Json::array();
-  for (const SequenceRow& row : measurement.rows) rows.push_back(json_of(row));
-  for (const Skipped& s : measurement.skipped)
-    skipped.push_back(
-        {{"technique", s.technique}, {"preset", or_null(s.preset)}, {"scene", or_null(s.scene)}, {"why", s.why}});
+report::Measurements results_of(const MeasuredSequence& sequence, const SequenceMeasurement& measurement,
+                                const DeviceInfo& device) {
   const Frame& first = sequence.frames.front().frame;
-  Json document = origin_of(device);
-  document.update({{"results", Json::array()},
-                   {"sequence",
-                    {{"shot", sequence.name},
-                     {"class", sequence.scene_class},
-                     {"frames", numbers_of(sequence)},
-                     {"size", {first.width(), first.height()}},
-                     {"radius", sequence.radius.value},
-                     {"radius_from", name_of(sequence.radius.from)},
-                     {"truth_rays", or_null(sequence.truth_rays)},
-                     {"truth_noise", or_null(sequence.truth_noise)},
-                     {"truth_change", or_null(measurement.truth_change)},
-                     {"comparable", or_null(measurement.comparable)},
-                     {"motion", measurement.motions},
-                     {"made", sequence.made},
-                     {"reused", sequence.reused},
-                     {"rows", rows}}},
-                   {"skipped", skipped},
-                   {"paper", Json::array()}});
-  return document;
+  report::Measurements made = results_on(device);
+  made.is_of_frames = false;
+  made.skipped = measurement.skipped;
+  report::Sequence& shot = made.sequence.emplace();
+  shot.shot = sequence.name;
+  shot.scene_class = sequence.scene_class;
+  for (const int number : numbers_of(sequence)) shot.frames.push_back(number);
+  shot.width = first.width();
+  shot.height = first.height();
+  shot.radius = sequence.radius.value;
+  shot.radius_from = name_of(sequence.radius.from);
+  shot.truth_rays = sequence.truth_rays;
+  shot.truth_noise = sequence.truth_noise;
+  shot.truth_change = measurement.truth_change;
+  shot.comparable = measurement.comparable;
+  shot.motion = measurement.motions;
+  shot.made = sequence.made;
+  shot.reused = sequence.reused;
+  for (const SequenceRow& row : measurement.rows) shot.rows.push_back(result_of(row));
+  return made;
 }
 
 Table table_of_sequence(const MeasuredSequence& sequence, const SequenceMeasurement& measurement) {

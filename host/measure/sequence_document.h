@@ -7,8 +7,9 @@
 
 namespace gloam::bench {
 
-/// A whole document: no results of single frames, but `sequence`.
-Json document_of(const MeasuredSequence& sequence, const SequenceMeasurement& measurement, const DeviceInfo& device);
+/// No rows of single frames, but `sequence`.
+report::Measurements results_of(const MeasuredSequence& sequence, const SequenceMeasurement& measurement,
+                                const DeviceInfo& device);
 
 /// A line for each setting, in the order of time.
 Table table_of_sequence(const MeasuredSequence& sequence, const SequenceMeasurement& measurement);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/lists.h"
+#include "measure/document.h"
 #include "measure/pictures.h"
 
 namespace gloam::bench {
@@ -45,8 +46,10 @@ void Session::measure_growth(const std::vector<const Technique*>& techniques) {
     tell("growth of " + technique.name, int(i), int(techniques.size()));
     try {
       for (Growth& growth :
-           bench::measure_growth(technique, subject_.frame, device_, {subject_.radius.value, growth_rounds}))
-        result_.growth.push_back({technique.name, subject_.name, std::move(growth)});
+           bench::measure_growth(technique, subject_.frame, device_, {subject_.radius.value, growth_rounds})) {
+        growth.scene = subject_.name;
+        result_.growth.push_back(std::move(growth));
+      }
     } catch (const Error& error) {
       skip_part(technique, "growth", error);
     }
@@ -63,7 +66,7 @@ void Session::measure_scales() {
     return bench::measure_scales(techniques, largest, subject_.name, subject_.radius.value, device_,
                                  [&](const Technique& t, const Error& e) { skip_part(t, "other resolutions", e); });
   };
-  const std::vector<ScaleFacts> found =
+  const std::vector<ScaleChange> found =
       is_known ? measured(subject_.truths->captured(width, height)) : measured(subject_.frame);
   result_.scales.insert(result_.scales.end(), found.begin(), found.end());
 }
@@ -75,12 +78,10 @@ void Session::measure_planes() {
 }
 
 void Session::add_scene() {
-  SceneFacts facts{subject_.name,          subject_.scene_class,    subject_.effect,
-                   subject_.frame.width(), subject_.frame.height(), subject_.radius};
   const MeasuredEffect& effect = effect_of(subject_.effect);
-  facts.base = effect.base;
-  facts.base_errors = steps_.base_errors(effect);
-  facts.radius_pixels = median_reach(subject_.frame, subject_.radius.value);
+  const Errors base = steps_.base_errors(effect);
+  report::Scene facts = scene_of(subject_.name, subject_.scene_class, subject_.effect, subject_.frame, subject_.radius);
+  facts.base = {effect.base, base.rmse, base.bias};
   if (subject_.truth) {
     facts.truth_noise = subject_.truth->noise;
     facts.truth_rays = subject_.truth->rays;
@@ -93,11 +94,10 @@ void Session::add_scene() {
   facts.white = white_.value_or(1);
   facts.peaks = race_.peaks();
   if (subject_.truths) {
-    facts.traced = true;
     facts.made = subject_.truths->made();
     facts.reused = subject_.truths->reused();
-    if (!facts.reused.empty())
-      result_.notes.push_back(fmt::format("{} of an earlier run used again", enumerate(facts.reused)));
+    if (!facts.reused->empty())
+      result_.notes.push_back(fmt::format("{} of an earlier run used again", enumerate(*facts.reused)));
   }
   result_.scenes.push_back(std::move(facts));
 }
@@ -176,7 +176,9 @@ void Session::add_ladder(Row& row, const Image& shipped) {
   if (contains(converged_, technique.name)) return;
   const Errors converged = steps_.converged_errors(row.variation);
   converged_.push_back(technique.name);
-  if (converged.rmse) result_.converged.push_back({&technique, subject_.name, subject_.effect, converged});
+  if (converged.rmse)
+    result_.converged.push_back(
+        {technique.name, subject_.name, converged.rmse, converged.bias, reads_of(technique), subject_.effect});
 }
 
 std::unique_ptr<Row> Session::row_of(const Variation& variation) {

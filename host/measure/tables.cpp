@@ -90,21 +90,21 @@ void add_variants(const std::vector<Entry>& variants, Table& table) {
 }
 
 /// "courtyard", or "courtyard: indirect".
-std::string title_of(const SceneFacts& scene) {
+std::string title_of(const report::Scene& scene) {
   return scene.effect == "ao" ? scene.name : scene.name + ": " + scene.effect;
 }
 
 /// What there is without a technique takes no time.
-std::vector<std::string> base_cells(const SceneFacts& scene, size_t columns) {
+std::vector<std::string> base_cells(const report::Scene& scene, size_t columns) {
   std::vector<std::string> cells(columns, "-");
   cells[0] = cells[2] = "";
-  cells[1] = scene.base;
-  cells[6] = cell(scene.base_errors.rmse);
-  cells[7] = cell(scene.base_errors.bias, "{:+.4f}");
+  cells[1] = scene.base.name;
+  cells[6] = cell(scene.base.rmse);
+  cells[7] = cell(scene.base.bias, "{:+.4f}");
   return cells;
 }
 
-std::vector<Entry> entries_of(const Measurement& measurement, const SceneFacts& scene) {
+std::vector<Entry> entries_of(const Measurement& measurement, const report::Scene& scene) {
   std::vector<Entry> entries;
   for (const auto& row : measurement.rows) {
     if (row->scene == scene.name && row->effect == scene.effect) entries.push_back({row.get(), median(row->ms)});
@@ -117,7 +117,7 @@ std::vector<Entry> entries_of(const Measurement& measurement, const SceneFacts& 
 
 }  // namespace
 
-Table table_of_scene(const Measurement& measurement, const SceneFacts& scene) {
+Table table_of_scene(const Measurement& measurement, const report::Scene& scene) {
   Table table{title_of(scene), {}, 3, {}};
   table.rows = {{"", "technique", "preset", "ms", "/hbao+", "/floor", "RMSE", "bias", "t0w model", "t1 screen",
                  "t2 hidden", "t12 both", "t3 noise", "t4 bias", "t4 noise", "t5"}};
@@ -134,11 +134,11 @@ Table table_of_scene(const Measurement& measurement, const SceneFacts& scene) {
     }
     add_variants(variants, table);
   }
-  if (scene.base_errors.rmse) table.rows.push_back(base_cells(scene, table.rows.front().size()));
+  if (scene.base.rmse) table.rows.push_back(base_cells(scene, table.rows.front().size()));
   return table;
 }
 
-Table table_of_baselines(const Measurement& measurement, const SceneFacts& scene) {
+Table table_of_baselines(const Measurement& measurement, const report::Scene& scene) {
   Table table{title_of(scene) + ": what else computes the same, in ms", {}, 3, {}};
   table.rows = {{"technique", "preset", "part", "gloam", "naive", "ratio", "mean difference", "maximum", "copy floor"}};
   for (const Entry& e : entries_of(measurement, scene)) {
@@ -146,9 +146,9 @@ Table table_of_baselines(const Measurement& measurement, const SceneFacts& scene
     const Variation& v = row.variation;
     for (const AgainstNaive& part : row.against_naive) {
       table.rows.push_back({v.technique->name, v.variant.empty() ? v.name() : v.name() + ", " + v.variant, part.part,
-                            fmt::format("{:.2f}", median(part.ms)), fmt::format("{:.2f}", median(part.naive_ms)),
+                            fmt::format("{:.2f}", part.ms.median), fmt::format("{:.2f}", part.naive_ms.median),
                             fmt::format("{:.3f}", part.ratio), cell(part.mean_difference, "{:.1e}"),
-                            cell(part.greatest_difference, "{:.1e}"), cell(row.copy_floor_ms, "{:.2f}")});
+                            cell(part.max_difference, "{:.1e}"), cell(row.copy_floor_ms, "{:.2f}")});
     }
     if (row.to_native)
       table.below.push_back(fmt::format("{} {}, the estimate: {:.2f} of the native loop's time", v.technique->name,
@@ -160,9 +160,9 @@ Table table_of_baselines(const Measurement& measurement, const SceneFacts& scene
 Table table_of_growth(const Measurement& measurement) {
   Table table{"Growth, without the filter: time is in proportion to x to the power of", {}, 2, {}};
   table.rows = {{"technique", "x", "exponent", "x from", "to", "ms from", "to"}};
-  for (const GrowthFacts& facts : measurement.growth) {
-    const GrowthPoint &first = facts.growth.points.front(), &last = facts.growth.points.back();
-    table.rows.push_back({facts.technique, facts.growth.over, cell(exponent(facts.growth.points), "{:.2f}"),
+  for (const Growth& growth : measurement.growth) {
+    const GrowthPoint &first = growth.points.front(), &last = growth.points.back();
+    table.rows.push_back({growth.technique, growth.over, cell(growth.exponent, "{:.2f}"),
                           fmt::format("{:.0f}", first.x), fmt::format("{:.0f}", last.x),
                           fmt::format("{:.2f}", first.ms), fmt::format("{:.2f}", last.ms)});
   }

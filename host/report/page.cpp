@@ -87,7 +87,7 @@ Json json(const Scene& scene, const std::vector<Row>& rows, const PicturesOfFold
           {"title", scene.title},
           {"effect", scene.effect},
           {"class", scene.scene_class},
-          {"base", {{"name", scene.base}, {"rmse", json(scene.base_rmse)}, {"bias", json(scene.base_bias)}}},
+          {"base", {{"name", scene.base.name}, {"rmse", json(scene.base.rmse)}, {"bias", json(scene.base.bias)}}},
           {"white", scene.white},
           {"peaks", scene.peaks ? json(*scene.peaks) : Json(nullptr)},
           {"width", json(scene.width)},
@@ -118,8 +118,12 @@ Json json(const ClassFront& front) {
 }
 
 Json json(const Growth& g) {
-  return {{"technique", g.technique}, {"over", g.over},       {"scene", g.scene},           {"exponent", g.exponent},
-          {"x_from", json(g.x_from)}, {"x_to", json(g.x_to)}, {"ms_from", json(g.ms_from)}, {"ms_to", json(g.ms_to)}};
+  const bool has_points = !g.points.empty();
+  const GrowthPoint first = has_points ? g.points.front() : GrowthPoint(),
+                    last = has_points ? g.points.back() : GrowthPoint();
+  const auto known = [&](double value) { return has_points ? Json(value) : Json(); };
+  return {{"technique", g.technique}, {"over", g.over},        {"scene", g.scene},           {"exponent", g.exponent},
+          {"x_from", known(first.x)}, {"x_to", known(last.x)}, {"ms_from", known(first.ms)}, {"ms_to", known(last.ms)}};
 }
 
 Json json(const PaperFigure& f) {
@@ -137,12 +141,12 @@ Json json(const Sequence& sequence) {
                     {"ms", json(row.ms)},
                     {"ratio", json(row.ratio_to_hbao_plus)},
                     {"rmse", json(row.rmse)},
-                    {"worst_rmse", json(row.worst_rmse)},
-                    {"worst_frame", json(row.worst_frame)},
+                    {"worst_rmse", json(row.worst.rmse)},
+                    {"worst_frame", json(row.worst.frame)},
                     {"ssim", json(row.ssim)},
                     {"flicker", json(row.flicker)}});
   return {{"shot", sequence.shot},
-          {"frames", sequence.frames},
+          {"frames", sequence.frames.size()},
           {"width", json(sequence.width)},
           {"height", json(sequence.height)},
           {"truth_change", json(sequence.truth_change)},

@@ -135,10 +135,10 @@ std::string table_of_scene(const Material& material, const Scene& scene) {
     table.add(cells);
   }
   if (table.empty()) return "";
-  if (scene.base_rmse) {
+  if (scene.base.rmse) {
     std::vector<std::string> cells(heading.size());
-    cells[0] = plain_text(scene.base) + ", no technique";
-    cells[1] = error_and_bias(scene.base_rmse, scene.base_bias);
+    cells[0] = plain_text(scene.base.name) + ", no technique";
+    cells[1] = error_and_bias(scene.base.rmse, scene.base.bias);
     table.add(cells);
   }
   return table.text();

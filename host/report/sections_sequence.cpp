@@ -11,7 +11,7 @@ namespace {
 
 /// "gallery:walk, 10 frames of 640x360, radius 0.5, truths with 256 rays per pixel; the truth's own change is .052."
 std::string words_about(const Sequence& sequence) {
-  std::string words = fmt::format("{}, {} frames", plain_text(sequence.shot), sequence.frames);
+  std::string words = fmt::format("{}, {} frames", plain_text(sequence.shot), sequence.frames.size());
   if (sequence.width && sequence.height) words += fmt::format(" of {:.0f}x{:.0f}", *sequence.width, *sequence.height);
   if (sequence.radius) words += fmt::format(", radius {:g}", *sequence.radius);
   if (sequence.truth_rays) words += fmt::format(", truths with {:g} rays per pixel", *sequence.truth_rays);
@@ -25,7 +25,7 @@ std::string table_of_rows(std::vector<SequenceRow> rows) {
   Table table({"setting", "time", "RMSE", "worst frame", "SSIM", "flicker"}, "lr");
   for (const SequenceRow& row : rows)
     table.add({setting_text(row.technique, row.preset, row.temporal ? "temporal" : ""),
-               ratio_text(row.ratio_to_hbao_plus), error_text(row.rmse), error_text(row.worst_rmse),
+               ratio_text(row.ratio_to_hbao_plus), error_text(row.rmse), error_text(row.worst.rmse),
                error_text(row.ssim), error_text(row.flicker)});
   return table.text();
 }

@@ -15,12 +15,15 @@ using Number = std::optional<double>;  ///< empty: null or not in the file
 
 struct Milliseconds {
   double median = 0, min = 0, max = 0;
-  std::vector<double> rounds = {};  ///< empty in files that keep none
+  std::vector<double> rounds = {};    ///< empty in files that keep none
+  std::vector<double> interval = {};  ///< of the median, its two ends; empty: none
 };
 
-/// What a pass does for each pixel, by count (docs/benchmarking.md).
+/// What a pass does for each pixel of a frame, counted once on small frames (script/update-operation-counts).
 struct PassCount {
-  double operations = 0, loads = 0, bytes_loaded = 0, bytes_stored = 0;
+  double operations = 0;  ///< on floats; a fused multiply-add is two
+  double loads = 0;       ///< of one value from a plane
+  double bytes_loaded = 0, bytes_stored = 0;
 };
 
 struct Pass {
@@ -29,31 +32,44 @@ struct Pass {
   std::optional<PassCount> per_pixel;  ///< empty: not counted
 };
 
-/// What the device reached at most on a scene's frame.
+/// What the device reached at most on a scene's frame, in the rounds of its race.
 struct Peaks {
-  Number copy_gb_per_s, gather_g_per_s, fma_gflops;
+  Number copy_gb_per_s;   ///< one plane read, one written
+  Number gather_g_per_s;  ///< 10^9 values read at the addresses of HBAO+'s samples
+  Number fma_gflops;      ///< 10^9 operations on floats by fused multiply-adds, two each
 };
 
-/// The ratios of each round: of times, and of what the cores spent. Empty in older files, or where there is nothing to compare with.
+/// The ratios of each round: of times, and of what the cores spent, with their intervals. Empty in older files, or where there is nothing
+/// to compare with.
 struct RoundRatios {
-  std::vector<double> ms, cpu;
+  std::vector<double> ms, cpu, ms_interval = {}, cpu_interval = {};
 };
 
 /// A part of a technique's time.
 struct Share {
-  std::string what;
+  std::string what;  ///< "gathers", "arithmetic of the estimate", or a pass: "bilateral/horizontal"
   double share = 0;  ///< 0 to 1
 };
 
-/// The ladder: RMSE of each image to the one a step above it (docs/benchmarking.md).
+/// The ladder: RMSE of each image to the one a step above it (docs/benchmarking.md); none if one of the two is missing.
 struct Ladder {
-  Number t0w, t1, t2, t12, t3, t4_bias, t4_noise, t5;
+  Number t0w;       ///< truth with the technique's own contribution, to the truth
+  Number t1;        ///< over all peeled layers and converged, to the image above
+  Number t2;        ///< over the given layers, converged, to the image above
+  Number t12;       ///< the same to T0w, where the registry has no form over peeled layers: both steps in one
+  Number t3;        ///< with its own samples, in double, to the image above
+  Number t4_bias;   ///< filtered converged image, to the converged image
+  Number t4_noise;  ///< filtered, to the filtered converged image
+  Number t5;        ///< shipped result, to the same in double
 };
 
-/// Time of a part of a technique relative to naive kernels that compute the same.
+/// A part of a technique, and the naive kernels that compute the same.
 struct AgainstNaive {
   std::string part;  ///< "estimate", "filter" or "both"
+  Milliseconds ms, naive_ms;
   double ratio = 0;  ///< the technique's time over theirs
+  /// Mean and largest absolute difference between the two results up to this part, over all pixels; none for the filter alone.
+  Number mean_difference, max_difference;
 };
 
 /// The inputs of a technique.
@@ -69,6 +85,7 @@ bool reads_one_layer(const Reads& reads);
 
 /// One technique with one preset, in one variant, on one scene.
 struct Row {
+  bool is_of_frames = true;  ///< whether it has all fields, as rows of single frames that gloam measured
   std::string technique, preset, variant, scene;
   std::string effect;  ///< of its scene
   std::string kind;    ///< of its item of a set: "frame", "sequence", "eyes", ...; empty without a set
@@ -79,7 +96,8 @@ struct Row {
   Number ratio_to_hbao_plus, ratio_to_gather_floor, ratio_to_copy_floor, ratio_to_naive, ratio_to_native;
   RoundRatios hbao_plus_rounds, gather_floor_rounds, copy_floor_rounds;
   std::vector<double> processes;  ///< rounds in each process, one after another; empty: all in one
-  Number own_floor_ms, ratio_to_own_floor;
+  Number own_floor_ms, ratio_to_own_floor, copy_floor_ms;
+  std::optional<Milliseconds> cpu_ms;  ///< what the cores spent; none where the device is no CPU
   Ladder ladder;
   std::vector<AgainstNaive> naive;
   std::vector<Share> spent_on;
@@ -92,37 +110,57 @@ struct Row {
   Json submitted;     ///< of a submitted row (gloam score): what its authors state (submitted.h); null for others
 };
 
+/// What there is without a technique.
+struct Base {
+  std::string name;  ///< "white", "black"; empty in older files
+  Number rmse, bias;
+};
+
 /// One scene with one effect of light on it. Name and class tell the effect, unless it is ambient occlusion: "gallery (indirect)". Of a
 /// set the class is of single frames; other kinds are classes of their own, since other techniques compute pairs of eyes and displays.
 struct Scene {
   std::string name, scene_class;
-  std::string own_class;      ///< as the file has it: "architecture"
-  std::string title, effect;  ///< name without the effect; the plane: "ao", "indirect"
-  std::string kind;           ///< of its item of a set; empty without a set
-  Number width, height, radius, radius_pixels, truth_noise;
+  std::string effect;            ///< the plane: "ao", "indirect"
+  std::string title, own_class;  ///< for pages: name and class as the file has them: "gallery", "architecture"
+  std::string kind;              ///< of its item of a set; empty without a set
+  Number width, height, radius, radius_pixels, truth_noise, truth_rays;
   std::string radius_from;  ///< "flag", "frame", "scene", "truth"; empty in older files
   std::string truth_image;  ///< path below the folder; empty: none
-  std::string base;         ///< what there is without a technique: "white"; empty in older files
-  Number base_rmse, base_bias;
-  double white = 1;  ///< value that pictures show as white
+  Base base;
+  double white = 1;                                      ///< value that pictures show as white
+  std::optional<std::vector<std::string>> made, reused;  ///< files of a truth that was traced from the scene
   std::optional<Peaks> peaks;
   size_t source = 0;  ///< index of its file, of several (joined.h)
 };
 
+struct GrowthPoint {
+  double x = 0;   ///< pixels, samples per pixel, pixels of radius, layers or views
+  double ms = 0;  ///< median
+};
+
 struct Growth {
-  std::string technique, over, scene;
-  double exponent = 0;
-  Number x_from, x_to, ms_from, ms_to;
+  std::string technique, over, scene;  ///< over: "pixels", "samples", "radius", "layers" or "views"
+  double exponent = 0;                 ///< not finite: there is none
+  std::vector<GrowthPoint> points;
 };
 
 struct Skipped {
-  std::string technique, preset, scene, why;
+  std::string technique, preset, scene, why;  ///< no preset: all presets; no scene: all scenes
+};
+
+/// What a time limit left out.
+struct LeftOut {
+  std::string technique, preset, variant;  ///< empty: all
+  std::string scene, effect;
+  /// "everything", "rounds", "ladder", "SSIM and FLIP", "own floor", "growth", "checks", "naive kernels"
+  std::string what;
 };
 
 /// A figure from a paper's table, with ours.
 struct PaperFigure {
-  std::string table, row, column, base;
-  Number ms, ratio, paper_ratio;
+  std::string table, row, column;
+  Number ms, ratio, paper_ms, paper_ratio;
+  std::string base;  ///< the row that the ratio is to
 };
 
 /// A technique with so many samples that more change nothing, compared with the truth.
@@ -149,19 +187,28 @@ struct PlaneReading {
   Number x, y;                   ///< the pixel of the least value
 };
 
+/// The frame with the largest error.
+struct Worst {
+  Number frame, rmse;
+};
+
 /// One technique with one preset on the frames of a shot.
 struct SequenceRow {
   std::string technique, preset;
   bool temporal = false;  ///< accumulated over the frames
   Milliseconds ms;        ///< of one frame
-  Number ratio_to_hbao_plus, rmse, worst_rmse, worst_frame, ssim, flicker;
+  Number ratio_to_hbao_plus, rmse;
+  Worst worst;
+  Number ssim, flicker, new_rmse, old_rmse;
 };
 
 /// The frames of a shot (gloam bench --sequence).
 struct Sequence {
-  std::string shot;
-  size_t frames = 0;
-  Number width, height, radius, truth_rays, truth_change;
+  std::string shot, scene_class;
+  std::vector<double> frames;  ///< their numbers
+  Number width, height, radius, truth_rays, truth_noise, truth_change, comparable;
+  std::string radius_from;
+  std::vector<std::string> motion, made, reused;
   std::vector<SequenceRow> rows;
 };
 
@@ -169,6 +216,7 @@ struct Sequence {
 struct SetFacts {
   std::string name, part, hash;
   Number seed;
+  bool empty() const { return name.empty(); }
 };
 
 /// How many of the hard cases that concern a technique it holds (gloam stress).
@@ -177,17 +225,20 @@ struct HeldCases {
 };
 
 struct Measurements {
+  bool is_of_frames = true;  ///< not of a shot alone
   std::string device, cpu, driver, date, commit;
   std::string gloam;                 ///< the version; empty in older files
   std::vector<std::string> command;  ///< as given; empty in older files
   SetFacts set;
   Number cores, rounds, rays;
-  std::vector<Scene> scenes;  ///< every scene that a row names is here
-  std::vector<Row> rows;      ///< measured by gloam
+  std::optional<Peaks> peaks;  ///< those of the largest scene
+  std::vector<Scene> scenes;   ///< every scene that a row names is here
+  std::vector<Row> rows;       ///< measured by gloam
   std::vector<Row>
       submitted;  ///< of other methods (gloam score): errors, and no time that compares with those of `rows`
   std::vector<Growth> growth;
   std::vector<Skipped> skipped;
+  std::vector<LeftOut> left_out;
   std::vector<PaperFigure> paper;
   std::vector<Converged> converged;
   std::vector<ScaleChange> scales;
@@ -203,6 +254,12 @@ Measurements read_measurements(const std::filesystem::path& folder);
 
 /// The same from its content; `name` is the file's.
 Measurements measurements_of(const Json& document, const std::string& name);
+
+/// The content of a bench.json with these measurements, without what pages add.
+Json document_of(const Measurements& measurements);
+
+/// A document as text with a key a line, and of a list of objects one object a line: lines that differ are rows that differ.
+std::string text_of(const Json& document);
 
 /// The bench.json that a path names: the file itself, or the one in the folder. Throws Error if there is neither.
 std::filesystem::path measurements_file(const std::filesystem::path& folder_or_file);

@@ -17,12 +17,6 @@
 namespace gloam::score {
 namespace {
 
-/// A time that nobody measured here has no rounds.
-Json stated(const std::optional<double>& ms) {
-  if (!ms) return nullptr;
-  return {{"median", *ms}, {"min", *ms}, {"max", *ms}, {"rounds", Json::array()}};
-}
-
 Json views_of(const Figures& figures) {
   Json views = Json::object();
   for (const auto& [view, m] : figures.views)
@@ -110,13 +104,10 @@ std::optional<SetId> set_in(const Json& document) {
   return id;
 }
 
+/// Nothing was computed here, so there is no device.
 Json new_document(const std::optional<SetId>& set) {
-  Json document = bench::origin_of(DeviceInfo{});
-  document["device"] = nullptr;  // nothing was computed here
-  document["driver"] = nullptr;
+  Json document = report::document_of(bench::results_on(DeviceInfo{}));
   document["set"] = set ? document_of(*set) : Json(nullptr);
-  for (const char* list : {"scenes", "results", "growth", "converged", "scales", "planes", "skipped", "paper"})
-    document[list] = Json::array();
   return document;
 }
 
@@ -162,30 +153,29 @@ Json document_of(const WholeTimes& whole) {
 Json row_of(const Scored& scored, const Entry& entry, const RowDetails& details) {
   const Target& target = scored.target;
   const Figures& f = scored.figures;
+  const double ms = entry.stated_time(target.name).value_or(0);
   const int scale = entry.convention.scale;
-  return {{"technique", entry.name},
-          {"preset", "submitted"},
-          {"variant", ""},
-          {"settings", entry.settings},
-          {"resolution", scale == 1   ? "full"
-                         : scale == 2 ? "half"
-                                      : "quarter"},
-          {"scene", target.name},
-          {"effect", target.effect},
-          {"kind", or_null(target.kind)},
-          {"width", scored.scene.width},
-          {"height", scored.scene.height},
-          {"ms", stated(entry.stated_time(target.name))},
-          {"ratio_to_hbao_plus", nullptr},
-          {"ratio_to_gather_floor", nullptr},
-          {"rmse_to_truth", f.rmse},
-          {"bias", f.bias},
-          {"ssim", f.ssim},
-          {"flip", or_null(f.flip)},
-          {"flicker", or_null(f.flicker)},
-          {"inconsistency", or_null(f.inconsistency)},
-          {"image", or_null(scored.picture)},
-          {"submitted", submitted_of(scored, entry, details)}};
+  return report::json_of(report::Row{.is_of_frames = false,
+                                     .technique = entry.name,
+                                     .preset = "submitted",
+                                     .scene = target.name,
+                                     .effect = target.effect,
+                                     .kind = target.kind,
+                                     .ms = {ms, ms, ms},
+                                     .rmse_to_truth = f.rmse,
+                                     .bias = f.bias,
+                                     .ssim = f.ssim,
+                                     .flip = f.flip,
+                                     .flicker = f.flicker,
+                                     .inconsistency = f.inconsistency,
+                                     .width = scored.scene.width,
+                                     .height = scored.scene.height,
+                                     .resolution = scale == 1   ? "full"
+                                                   : scale == 2 ? "half"
+                                                                : "quarter",
+                                     .settings = entry.settings,
+                                     .image = scored.picture,
+                                     .submitted = submitted_of(scored, entry, details)});
 }
 
 Json document_of(const BestFit& fit, const Figures& figures, const std::string& effect) {
@@ -199,11 +189,7 @@ Json document_of(const BestFit& fit, const Figures& figures, const std::string& 
           {"flip", or_null(figures.flip)}};
 }
 
-Json scene_of(const Scored& scored) {
-  Json scene = bench::document_of(scored.scene);
-  scene["kind"] = or_null(scored.target.kind);
-  return scene;
-}
+Json scene_of(const Scored& scored) { return report::json_of(scored.scene); }
 
 Results::Results(const std::string& text, std::string name) : name_(std::move(name)) {
   document_ = ordered_json_of_text(text, name_);
@@ -330,7 +316,7 @@ void ResultFile::update(const std::function<void(Results&)>& change) const {
                 path_.string(), patience);
   Results results = read();
   change(results);
-  write_text(path_, results.document_.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_text(path_, report::text_of(results.document_));
 }
 
 MeasuringAlone::MeasuringAlone(const std::filesystem::path& folder)

@@ -95,7 +95,7 @@ std::string few_of(const std::vector<std::string>& names) {
 struct Scoring::Walked {
   Sums sums;
   std::vector<int> frames, missing;
-  std::optional<bench::SceneFacts> scene;
+  std::optional<report::Scene> scene;
   std::string picture;
 };
 

@@ -28,7 +28,7 @@ struct Scored {
   Target target;
   Figures figures;
   std::vector<int> frames, missing;  ///< numbers of the frames that were scored, and of those left out
-  bench::SceneFacts scene;
+  report::Scene scene;
   std::string picture;  ///< below the folder; empty: none
 };
 

@@ -7,6 +7,7 @@
 #include "compare/plane_pairs.h"
 #include "exr/holdings.h"
 #include "gloam/error.h"
+#include "measure/document.h"
 #include "measure/effects.h"
 #include "measure/pictures.h"
 
@@ -100,23 +101,23 @@ std::string write_picture(const std::filesystem::path& folder, const Target& tar
   return path;
 }
 
-bench::SceneFacts facts_of(const Target& target, const LoadedFrame& first, const std::filesystem::path& folder) {
-  bench::SceneFacts facts{target.name,         target.scene_class,   target.effect,
-                          first.frame.width(), first.frame.height(), {}};
+report::Scene facts_of(const Target& target, const LoadedFrame& first, const std::filesystem::path& folder) {
   const std::optional<double> radius = target.radius ? target.radius : first.truth.radius;
-  facts.radius = radius ? Radius{*radius, RadiusSource::truth} : default_radius(first.frame, {});
-  facts.radius_pixels = bench::median_reach(first.frame, facts.radius.value);
+  report::Scene facts =
+      bench::scene_of(target.name, target.scene_class, target.effect, first.frame,
+                      radius ? Radius{*radius, RadiusSource::truth} : default_radius(first.frame, {}));
+  facts.kind = target.kind;
   facts.truth_noise = first.truth.noise;
   facts.truth_rays = first.truth.rays;
-  facts.base = "black";
+  facts.base.name = "black";
   float base = 0;
   if (contains(bench::effect_names(), target.effect)) {
-    facts.base = bench::effect_of(target.effect).base;
+    facts.base.name = bench::effect_of(target.effect).base;
     base = bench::effect_of(target.effect).base_value;
   }
   const bench::Image even = bench::even_image(first.truth.image, base);
-  facts.base_errors.rmse = bench::rmse(even, first.truth.image, first.foreground);
-  facts.base_errors.bias = bench::bias(even, first.truth.image, first.foreground);
+  facts.base.rmse = bench::rmse(even, first.truth.image, first.foreground);
+  facts.base.bias = bench::bias(even, first.truth.image, first.foreground);
   facts.white = white_of(first);
   if (!folder.empty()) facts.truth_image = write_picture(folder, target, "truth", first, first.truth.image);
   return facts;

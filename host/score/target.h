@@ -54,7 +54,7 @@ LoadedFrame load(const TargetFrame& at, const std::string& effect, const ReadOpt
                  std::vector<std::string>& notes);
 
 /// What a report says of the scene, with a picture of its truth below `folder` (empty: without).
-bench::SceneFacts facts_of(const Target& target, const LoadedFrame& first, const std::filesystem::path& folder);
+report::Scene facts_of(const Target& target, const LoadedFrame& first, const std::filesystem::path& folder);
 
 /// Where `write_picture` puts a picture, below the folder: "images/courtyard/truth.png".
 std::string picture_file(const Target& target, const std::string& name);

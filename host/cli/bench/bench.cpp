@@ -185,7 +185,7 @@ void bench_command(const BenchCommand& given) {
                 time_words(flags.time));
   if (result.rows.empty())
     throw Error("nothing could be measured: {} {}", result.skipped.back().technique, result.skipped.back().why);
-  Json document = document_of(result, options, device.info());
+  Json document = report::document_of(results_of(result, options, device.info()));
   if (memory > 0) document["memory_bytes"] = memory;
   document["time_limit_s"] = limit.is_set() ? Json(flags.time) : Json(nullptr);
   const std::filesystem::path file = written.path();

@@ -108,7 +108,7 @@ void print(const Measurement& result, const BenchOptions& options, const DeviceI
       "ms: the whole plan. /hbao+, /floor: over HBAO+ medium, over its own gathers alone. RMSE and bias to the truth.\n"
       "t0w to t5: RMSE of each step to the one before (docs/benchmarking.md). *: no other is as fast\nand as close, "
       "and better in one of the two.\n");
-  for (const SceneFacts& scene : result.scenes) {
+  for (const report::Scene& scene : result.scenes) {
     print(table_of_scene(result, scene));
     if (const Table table = table_of_baselines(result, scene); table.rows.size() > 1 || !table.below.empty())
       print(table);

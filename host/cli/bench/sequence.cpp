@@ -276,7 +276,7 @@ void bench_sequence(const SequenceBenchFlags& flags, const MeasureOptions& given
     add_builtin(shot.sequence, builtin, frames_of(flags.choice, builtin), options, making);
     shot.measured = measured_on(shot.sequence, options, left_out, device);
   }
-  const Json document = document_of(shot.sequence, shot.measured, device.info());
+  const Json document = report::document_of(results_of(shot.sequence, shot.measured, device.info()));
   written.write(document);
   json.write(document);
   if (json.only_json()) return;

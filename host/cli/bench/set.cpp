@@ -182,45 +182,40 @@ class SetBench {
            });
   }
 
-  /// A row of a sequence, as those of frames.
-  Json row_of(const SequenceRow& row, const Target& target, const score::LoadedFrame& first) const {
+  /// A row of a sequence, with the fields that it has in common with rows of frames.
+  report::Row row_of(const SequenceRow& row, const Target& target, const score::LoadedFrame& first) const {
     const Variation& v = row.variation;
-    return {{"technique", v.technique->name},
-            {"preset", v.name()},
-            {"variant", v.variant},
-            {"depths", depths_of(*v.technique)},
-            {"views", v.technique->views},
-            {"settings", Json::object()},
-            {"resolution", "full"},
-            {"scene", target.name},
-            {"effect", target.effect},
-            {"kind", target.kind},
-            {"width", first.frame.width()},
-            {"height", first.frame.height()},
-            {"ms", score::milliseconds_of(row.ms)},
-            {"ratio_to_hbao_plus", or_null(row.ratio)},
-            {"ratio_to_gather_floor", nullptr},
-            {"rmse_to_truth", row.rmse},
-            {"bias", row.bias},
-            {"ssim", row.ssim},
-            {"flip", or_null(row.flip)},
-            {"flicker", or_null(row.flicker.flicker())},
-            {"inconsistency", nullptr},
-            {"image", nullptr}};
+    return {.is_of_frames = false,
+            .technique = v.technique->name,
+            .preset = v.name(),
+            .variant = v.variant,
+            .scene = target.name,
+            .effect = target.effect,
+            .reads = reads_of(*v.technique),
+            .ms = times_and_rounds(row.ms),
+            .rmse_to_truth = row.rmse,
+            .bias = row.bias,
+            .ssim = row.ssim,
+            .flip = row.flip,
+            .flicker = row.flicker.flicker(),
+            .ratio_to_hbao_plus = row.ratio,
+            .width = first.frame.width(),
+            .height = first.frame.height(),
+            .resolution = "full"};
   }
 
   Json document() const {
-    Json made = document_of(result_, options_, device_.info());
-    made["set"] = score::document_of(set_.id);
-    for (const SceneFacts& scene : sequence_scenes_) made["scenes"].push_back(document_of(scene));
-    for (const Json& row : sequence_rows_) made["results"].push_back(row);
-    for (const char* list : {"scenes", "results"}) {
-      for (Json& each : made[list]) {
-        const auto kind = kinds_.find(each.value(list == std::string("scenes") ? "name" : "scene", ""));
-        if (kind != kinds_.end()) each["kind"] = or_null(kind->second);
-      }
-    }
-    return made;
+    report::Measurements made = results_of(result_, options_, device_.info());
+    for (const report::Scene& scene : sequence_scenes_) made.scenes.push_back(scene);
+    for (const report::Row& row : sequence_rows_) made.rows.push_back(row);
+    const auto add_kind = [&](std::string& kind, const std::string& item) {
+      if (const auto known = kinds_.find(item); known != kinds_.end()) kind = known->second;
+    };
+    for (report::Scene& scene : made.scenes) add_kind(scene.kind, scene.name);
+    for (report::Row& row : made.rows) add_kind(row.kind, row.scene);
+    Json document = report::document_of(made);
+    document["set"] = score::document_of(set_.id);
+    return document;
   }
 
   void write() const { file_->write(document()); }
@@ -228,7 +223,7 @@ class SetBench {
   void print() const {
     fmt::print("{}, {} ({}); set {}\n", cpu_model(), printable(device_.info().name), printable(device_.info().platform),
                printable(score::in_words(set_.id)));
-    for (const SceneFacts& scene : result_.scenes) cli::print(table_of_scene(result_, scene));
+    for (const report::Scene& scene : result_.scenes) cli::print(table_of_scene(result_, scene));
     for (const Measured& each : sequences_) cli::print(table_of_sequence(each.sequence, each.rows));
     print_skipped(result_.skipped);
     fmt::print("wrote {}\n", printable(file_->path().string()));
@@ -242,8 +237,8 @@ class SetBench {
   Measurement result_;
   std::optional<BenchFile> file_;
   std::vector<Measured> sequences_;
-  std::vector<SceneFacts> sequence_scenes_;
-  std::vector<Json> sequence_rows_;
+  std::vector<report::Scene> sequence_scenes_;
+  std::vector<report::Row> sequence_rows_;
   std::map<std::string, std::string> kinds_;  ///< by item
   std::vector<std::string> left_out_;
 };
