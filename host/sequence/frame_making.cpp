@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "base/file_ledger.h"
+#include "base/files.h"
 #include "base/hash.h"
 #include "gloam/error.h"
 #include "gloam/exr.h"
@@ -58,6 +59,14 @@ void decode_all(FrameFile& file) {
 std::string version_with_kernels(const std::string& version) {
   static const uint64_t kernels = hash_of_kernels();
   return fmt::format("{} kernels {:016x}", version, kernels);
+}
+
+std::string with_hash_of_file(const std::string& setting) {
+  const size_t equals = setting.find('=');
+  const std::string file = equals == std::string::npos ? "" : setting.substr(equals + 1);
+  std::error_code unknown;
+  if (!fs::is_regular_file(file, unknown)) return setting;
+  return fmt::format("{} ({:016x})", setting, hash_of(read_text(file)));
 }
 
 std::string identity_of(const FrameFiles& files) {

@@ -20,6 +20,9 @@ struct FrameMaking {
 /// "0.1.0 kernels 5d0f...", for the program's own version.
 std::string version_with_kernels(const std::string& version);
 
+/// A setting such as "radius=0.5" as it is; one that names a file, "coefficients=FILE", with a hash of what the file holds.
+std::string with_hash_of_file(const std::string& setting);
+
 /// "shot.1001.exr, 20511234 bytes, 1764036000.123456789; cameras 1f0c...": name, size and time of the last change of each file,
 /// and a hash of the cameras, wherever these come from. Throws Error for a file that is gone.
 std::string identity_of(const FrameFiles& files);

@@ -33,4 +33,13 @@ std::optional<double> stated_radius(const FrameFile& file, std::vector<std::stri
   return {};
 }
 
+std::optional<Radius> settle_radius(PlanRequest& request, Plan& plan, const Frame& frame, std::optional<double> stated,
+                                    const std::vector<std::string>& available, const std::string& holds) {
+  const Radius made = default_radius(frame, stated);
+  if (!radius_of(plan, request, made.from)) return {};
+  request.radius = made.value;
+  plan = make_plan(request, available, holds);
+  return radius_of(plan, request, made.from);
+}
+
 }  // namespace gloam

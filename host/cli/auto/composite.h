@@ -9,9 +9,9 @@
 
 #include "auto/report.h"
 #include "cli/flags/options.h"
-#include "cli/run/colour_layer.h"
 #include "gloam/composition.h"
 #include "gloam/unfit.h"
+#include "shot/colour_layer.h"
 
 namespace gloam::cli {
 

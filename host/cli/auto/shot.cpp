@@ -4,14 +4,13 @@
 #include <map>
 #include <memory>
 
-#include "base/page_pool.h"
 #include "cli/auto/frame.h"
-#include "cli/shot/memory.h"
-#include "cli/shot/start.h"
-#include "cli/shot/steps.h"
+#include "cli/flags/memory.h"
+#include "cli/shot/report.h"
+#include "cli/shot/shot.h"
 #include "gloam/error.h"
 #include "sequence/chunks.h"
-#include "sequence/frame_making.h"
+#include "shot/shot_run.h"
 
 namespace gloam::cli {
 namespace {
@@ -55,12 +54,10 @@ struct AutoShotSettings {
   std::optional<FramePattern> output;  ///< none: a composite alone
   AutoCompositeFlags composite;
   std::optional<FramePattern> composite_output = {};  ///< none: no composite
-  bool keeps_depth = false, resumes = false;
-  std::vector<Unfit> unfit;       ///< of the first frame, left out of all: nothing comes and goes by a share of pixels
-  int decider = 0;                ///< number of that frame
-  std::string version, contents;  ///< as in FrameMaking
-  Window display;
-  unsigned long long frame_bytes = 0;
+  bool keeps_depth = false;
+  std::vector<Unfit> unfit;  ///< of the first frame, left out of all: nothing comes and goes by a share of pixels
+  int decider = 0;           ///< number of that frame
+  std::string contents;      ///< as FrameStep::settings_of
 };
 
 unsigned long long bytes_in_flight(const AutoFrame& planned, const std::optional<CompositeSource>& source) {
@@ -105,23 +102,21 @@ class Tally {
   std::map<std::string, size_t> frames_;
 };
 
-/// The steps of a frame, for a `Pipeline`.
-class AutoShotWork {
+/// gloam auto on the frames of a shot.
+class AutoStep : public FrameStep {
  public:
-  AutoShotWork(const ShotFiles& files, const AutoShotSettings& settings, const DeviceFlags& device, ShotReport& report,
-               std::function<void()> stop)
+  AutoStep(const ShotFiles& files, const AutoShotSettings& settings, const DeviceFlags& device, ShotEvents& events)
       : files_(files),
         settings_(settings),
         computing_(settings.computing),
+        contents_(settings.contents),
         device_(device.open()),
-        report_(report),
-        steps_(files, report, std::move(stop)),
-        flights_(files.frames().size()) {}
+        notes_(files, events) {}
 
-  /// Decides on the first frame what all frames take over: nothing comes and goes by what it changes, and a budget is spent once. Says
-  /// what was decided, as text that tells results by other decisions apart.
-  std::string decide_on(AutoFrame& first) {
-    if (!computing_.goal && !looks_at_changes(first.candidates)) return "";
+  /// Decides on the first frame what all frames take over: nothing comes and goes by what it changes, and a budget is spent once. What
+  /// was decided tells results by other decisions apart.
+  void decide_on(AutoFrame& first) {
+    if (!computing_.goal && !looks_at_changes(first.candidates)) return;
     const Frame frame = first.files.read(first.planes);
     set_radius(first, settings_.radius);
     const AutoResult result = compute_effects(first, computing_, frame, device_, settings_.options);
@@ -139,148 +134,118 @@ class AutoShotWork {
         lines.push_back(missed);
     computing_.goal = {};
     note(lines);
-    return fmt::format("{}", fmt::join(lines, "; "));
+    contents_ += fmt::format("{}", fmt::join(lines, "; "));
   }
 
-  bool decode(size_t i) {
-    flights_[i] = std::make_unique<InFlight>();
-    return step(i, &StepTimes::decode, [&](InFlight& flight) {
-      if (!open(i, flight)) return false;
-      flight.frame = flight.planned->files.read(flight.planned->planes);
-      if (flight.source) read_colour(*flight.source);
-      add_notes(i, flight.frame.assumed);
-      return true;
-    });
+  std::vector<ShotOutput> outputs() const override {
+    std::vector<ShotOutput> outputs;
+    if (settings_.output) outputs.push_back({*settings_.output, ""});
+    if (settings_.composite_output) outputs.push_back({*settings_.composite_output, ""});
+    return outputs;
   }
-
-  /// On one thread.
-  bool compute(size_t i) {
-    return step(i, &StepTimes::compute, [&](InFlight& flight) {
-      AutoResult result = compute_effects(*flight.planned, computing_, flight.frame, device_, settings_.options);
-      note(result.notes);
-      flight.result = std::move(result.frame);
-      compose(i, flight);
-      keep_first_outputs(flight.result, result.outcomes);
-      // Where nothing is called for, a frame with a plane is written all the same.
-      const bool is_empty = flight.result.views.front().planes.empty();
-      if (settings_.keeps_depth || (settings_.output && is_empty)) take_depth(flight.frame, flight.result);
-      flight.result.attributes.merge(attributes_of(flight.making));
-      if (result.used_radius && result.used_radius->from == RadiusSource::frame)
-        note({fmt::format("radius: {:g} for all frames, made from the first; --radius gives another",
-                          result.used_radius->value)});
-      tally_.add(files_.frames()[i].number, result.outcomes);
-      flight.frame = {};
-      flight.planned.reset();
-      return true;
-    });
-  }
-
-  bool write(size_t i) {
-    const bool is_written = step(i, &StepTimes::write, [&](InFlight& flight) {
-      if (settings_.output) write_frame(output_of(i), flight.result, settings_.writing);
-      if (flight.composite) write_composite(composite_of(i), *flight.composite, settings_.writing.compression);
-      return true;
-    });
-    if (!is_written) return false;
-    report_.done(files_.frames()[i].number, flights_[i]->times);
-    flights_[i].reset();
-    return true;
-  }
+  std::string settings_of(const FrameFiles& /*files*/) override { return contents_; }
+  std::unique_ptr<FrameWork> begin(const FrameTurn& turn, FrameFiles files) override;
 
   const Tally& tally() const { return tally_; }
 
  private:
-  struct InFlight {
-    std::optional<AutoFrame> planned;
-    std::optional<CompositeSource> source;
-    std::optional<Composite> composite;
-    Frame frame, result;
-    FrameMaking making;
-    StepTimes times;
-  };
-
-  std::filesystem::path output_of(size_t i) const { return settings_.output->path_of(files_.frames()[i].number); }
-
-  std::filesystem::path composite_of(size_t i) const {
-    return settings_.composite_output->path_of(files_.frames()[i].number);
-  }
+  class Work;
 
   /// What a frame shows to be unfit is used all the same if it was sound in the first.
-  void add_notes(size_t i, std::vector<std::string> notes) {
+  void add_notes(const FrameTurn& turn, std::vector<std::string> notes) {
     for (std::string& text : notes) text = note_in_shot(text, settings_.unfit, settings_.decider);
-    steps_.add_notes(i, notes);
-  }
-
-  /// The first of a frame's files that --resume makes again, and why; empty if none is.
-  std::pair<std::filesystem::path, std::string> first_to_write_again(size_t i, const FrameMaking& making) const {
-    std::vector<std::filesystem::path> paths;
-    if (settings_.output) paths.push_back(output_of(i));
-    if (settings_.composite_output) paths.push_back(composite_of(i));
-    for (const std::filesystem::path& path : paths) {
-      if (std::string why = why_again(path, making); !why.empty()) return {path, why};
-    }
-    return {paths.front(), ""};
-  }
-
-  /// The picture, if one is asked for, while all planes of the effects are at hand.
-  void compose(size_t i, InFlight& flight) {
-    if (!flight.source) return;
-    flight.composite.emplace(make_composite(*flight.source, flight.result));
-    flight.composite->picture.attributes.merge(attributes_of(flight.making));
-    add_notes(i, flight.composite->composition.notes);
-    if (!is_composition_told_) note({composition_in_words(flight.composite->composition)});
-    is_composition_told_ = true;
-    flight.source.reset();
-  }
-
-  bool open(size_t i, InFlight& flight) {
-    const SequenceFrame& frame = files_.frames()[i];
-    FrameFiles files = files_.open(frame);
-    flight.making = {settings_.version, settings_.contents, identity_of(files)};
-    if (settings_.resumes) {
-      const auto [path, why] = first_to_write_again(i, flight.making);
-      if (report_.leaves_alone(frame.number, path, why)) return false;
-    }
-    check_size_in_shot(files, settings_.display);
-    flight.planned.emplace(planned_auto(std::move(files), settings_.asked, computing_.purpose, settings_.unfit));
-    if (settings_.output) check_has_depth(*flight.planned, output_of(i).string());
-    set_radius(*flight.planned, settings_.radius);
-    if (auto source = open_composite(settings_.composite, files_.paths_of(frame), files_.options_for(frame))) {
-      leave_out(source, settings_.unfit);
-      flight.source.emplace(std::move(*source));
-    }
-    check_bytes_in_shot(flight.planned->files, bytes_in_flight(*flight.planned, flight.source), settings_.frame_bytes);
-    return true;
-  }
-
-  /// Of each effect, with the extras asked for.
-  void keep_first_outputs(Frame& frame, const std::vector<Outcome>& outcomes) const {
-    std::vector<std::string> kept = settings_.asked.with;
-    for (const Outcome& outcome : outcomes)
-      if (!outcome.outputs.empty()) add_new(kept, outcome.outputs.front());
-    keep_planes(frame, kept);
-  }
-
-  static void take_depth(Frame& from, Frame& to) {
-    for (View& view : to.views) view.planes["depth"] = std::move(from.view(view.name).planes.at("depth"));
-  }
-
-  bool step(size_t i, double StepTimes::*time, const std::function<bool(InFlight&)>& work) {
-    const bool goes_on = steps_.run(i, flights_[i]->times.*time, [&] { return work(*flights_[i]); });
-    if (!goes_on) flights_[i].reset();
-    return goes_on;
+    notes_.add(turn.frame, notes);
   }
 
   const ShotFiles& files_;
   const AutoShotSettings& settings_;
   AutoSettings computing_;
+  std::string contents_;
   Device device_;
-  ShotReport& report_;
-  ShotSteps steps_;
+  ShotNotes notes_;
   Tally tally_;
   bool is_composition_told_ = false;
-  std::vector<std::unique_ptr<InFlight>> flights_;
 };
+
+class AutoStep::Work : public FrameWork {
+ public:
+  Work(AutoStep& step, AutoFrame planned, std::optional<CompositeSource> source)
+      : step_(step), planned_(std::move(planned)), source_(std::move(source)) {}
+
+  unsigned long long bytes() const override { return bytes_in_flight(*planned_, source_); }
+
+  void decode() override {
+    frame_ = planned_->files.read(planned_->planes);
+    if (source_) read_colour(*source_);
+    step_.add_notes(turn, frame_.assumed);
+  }
+
+  void compute() override {
+    const AutoShotSettings& settings = step_.settings_;
+    AutoResult result = compute_effects(*planned_, step_.computing_, frame_, step_.device_, settings.options);
+    note(result.notes);
+    result_ = std::move(result.frame);
+    compose();
+    keep_first_outputs(result.outcomes);
+    // Where nothing is called for, a frame with a plane is written all the same.
+    const bool is_empty = result_.views.front().planes.empty();
+    if (settings.keeps_depth || (settings.output && is_empty)) take_depth();
+    result_.attributes.merge(attributes_of(making));
+    if (result.used_radius && result.used_radius->from == RadiusSource::frame)
+      note({fmt::format("radius: {:g} for all frames, made from the first; --radius gives another",
+                        result.used_radius->value)});
+    step_.tally_.add(turn.frame.number, result.outcomes);
+    frame_ = {};
+    planned_.reset();
+  }
+
+  void write() override {
+    const AutoShotSettings& settings = step_.settings_;
+    const int number = turn.frame.number;
+    if (settings.output) write_frame(settings.output->path_of(number), result_, settings.writing);
+    if (composite_)
+      write_composite(settings.composite_output->path_of(number), *composite_, settings.writing.compression);
+  }
+
+ private:
+  /// The picture, if one is asked for, while all planes of the effects are at hand.
+  void compose() {
+    if (!source_) return;
+    composite_.emplace(make_composite(*source_, result_));
+    composite_->picture.attributes.merge(attributes_of(making));
+    step_.add_notes(turn, composite_->composition.notes);
+    if (!step_.is_composition_told_) note({composition_in_words(composite_->composition)});
+    step_.is_composition_told_ = true;
+    source_.reset();
+  }
+
+  /// Of each effect, with the extras asked for.
+  void keep_first_outputs(const std::vector<Outcome>& outcomes) {
+    std::vector<std::string> kept = step_.settings_.asked.with;
+    for (const Outcome& outcome : outcomes)
+      if (!outcome.outputs.empty()) add_new(kept, outcome.outputs.front());
+    keep_planes(result_, kept);
+  }
+
+  void take_depth() {
+    for (View& view : result_.views) view.planes["depth"] = std::move(frame_.view(view.name).planes.at("depth"));
+  }
+
+  AutoStep& step_;
+  std::optional<AutoFrame> planned_;
+  std::optional<CompositeSource> source_;
+  std::optional<Composite> composite_;
+  Frame frame_, result_;
+};
+
+std::unique_ptr<FrameWork> AutoStep::begin(const FrameTurn& turn, FrameFiles files) {
+  AutoFrame planned = planned_auto(std::move(files), settings_.asked, computing_.purpose, settings_.unfit);
+  if (settings_.output) check_has_depth(planned, settings_.output->path_of(turn.frame.number).string());
+  set_radius(planned, settings_.radius);
+  auto source = open_composite(settings_.composite, files_.paths_of(turn.frame), files_.options_for(turn.frame));
+  leave_out(source, settings_.unfit);
+  return std::make_unique<Work>(*this, std::move(planned), std::move(source));
+}
 
 /// The first frame that can be planned and read stands for all: it gives the radius.
 struct FirstFrame {
@@ -355,31 +320,27 @@ void run_auto_on_shot(const AutoCommand& flags) {
                             .output = flags.out.empty() ? std::nullopt : std::optional(outputs.front().second),
                             .composite = flags.composite,
                             .keeps_depth = flags.shot.keep_depth,
-                            .resumes = flags.shot.resume,
                             .unfit = first.planned.unfit,
                             .decider = first.number,
-                            .version = version_with_kernels(GLOAM_VERSION),
                             .contents = fmt::format("auto{} radius {}{}", flags.given, first.radius.value,
-                                                    left_out_in_words(first.planned.unfit)),
-                            .display = first.planned.files.files().front().display()};
+                                                    left_out_in_words(first.planned.unfit))};
   if (!flags.composite.path.empty()) settings.composite_output = outputs.back().second;
   const ShotMemory memory =
       shot_memory(first.planned.files.name(), bytes_in_flight(first.planned, first.source),
                   bytes_of_auto(first.planned, true), limit_of(flags.frame_flags, flags.shot.memory),
                   "ask for --resolution half, for one view (--view), or allow more");
-  settings.frame_bytes = memory.frame;
-  const PageReuse reuse(memory.all - process_bytes_with_device);
-  const ShotStart start(outputs, shot.numbers());
   ShotReport report(shot.frames().size(), flags.json);
-  Pipeline* running = nullptr;
-  AutoShotWork work(shot, settings, flags.run_flags, report, [&] { running->stop(); });
-  Pipeline pipeline(shot.frames().size(), memory.size,
-                    {[&](size_t i) { return work.decode(i); }, [&](size_t i) { return work.compute(i); },
-                     [&](size_t i) { return work.write(i); }});
-  settings.contents += work.decide_on(first.planned);
-  running = &pipeline;
-  pipeline.run();
-  note(work.tally().in_words());
+  AutoStep step(shot, settings, flags.run_flags, report);
+  ShotRun run(shot, step,
+              {.version = version_with_kernels(GLOAM_VERSION),
+               .resumes = flags.shot.resume,
+               .size = first.planned.files.files().front().display(),
+               .memory = memory},
+              report);
+  say_how_to_go_on();
+  step.decide_on(first.planned);
+  run.run();
+  note(step.tally().in_words());
   std::vector<std::string> files, what;
   if (settings.output) files.push_back(flags.out), what.emplace_back("effects");
   if (settings.composite_output) files.push_back(flags.composite.path), what.emplace_back("composite");

@@ -28,8 +28,7 @@ Bytes checked(Bytes need, const MemoryLimit& limit, const std::string& name, con
 MemoryLimit limit_of(const FrameFlags& flags, const std::string& memory) {
   MemoryLimit limit;
   if (flags.limit_memory.empty()) {
-    limit.bytes = available_memory();
-    limit.words = fmt::format("{} are available", memory_in_words(limit.bytes));
+    limit = available_limit();
   } else {
     limit.bytes = parse_memory(flags.limit_memory, "--limit-memory");
     limit.words = fmt::format("--limit-memory {} allows {}", flags.limit_memory, memory_in_words(limit.bytes));
@@ -64,21 +63,6 @@ unsigned long long planned_memory(const FrameFlags& flags, const std::string& na
 unsigned long long planned_memory(const FrameFlags& flags, const std::string& name, unsigned long long need,
                                   const std::string& ways_out) {
   return checked(need, limit_of(flags), name, ways_out);
-}
-
-unsigned long long bytes_to_read(const FrameFiles& files, const std::vector<std::string>& planes) {
-  Bytes bytes = 0;
-  for (const FrameFile& file : files.files()) bytes += file.bytes_to_read(planes);
-  if (files.history() && has_history(planes))
-    bytes += files.history()->file().bytes_to_read(files.history()->planes_of_file());
-  return bytes;
-}
-
-unsigned long long bytes_of_run(const FrameFiles& files, const std::vector<std::string>& planes, const Plan& plan,
-                                bool shares_memory) {
-  const Layout layout(files.window().width(), files.window().height());
-  return process_bytes_with_device + bytes_to_read(files, planes) +
-         bytes_beside_frame(plan, layout, files.views().size(), shares_memory);
 }
 
 }  // namespace gloam::cli

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/flags/options.h"
+#include "shot/memory.h"
 
 namespace gloam::cli {
 
@@ -21,25 +22,10 @@ unsigned long long planned_memory(const FrameFlags& flags, const std::string& na
 unsigned long long planned_memory(const FrameFlags& flags, const std::string& name, unsigned long long need,
                                   const std::string& ways_out);
 
-/// How much memory a command may take, and why: "--limit-memory 4G allows 4.0 GiB".
-struct MemoryLimit {
-  unsigned long long bytes = 0;
-  std::string words;
-};
 /// By --limit-memory, else what is available. `memory`: --memory of a shot, where that is less.
 MemoryLimit limit_of(const FrameFlags& flags, const std::string& memory = "");
 
-/// Memory of a process for code and libraries: without a device, and with a device that has compiled kernels.
-inline constexpr unsigned long long process_bytes = 48ull << 20, process_bytes_with_device = 160ull << 20;
-
 /// "4G", "512M" or "1.5G": powers of 1024, from 1M to 1024T. Throws UsageError.
 unsigned long long parse_memory(const std::string& text, const std::string& flag);
-
-/// Peak memory for reading planes of a frame of one file or two, and of its history.
-unsigned long long bytes_to_read(const FrameFiles& files, const std::vector<std::string>& planes);
-
-/// Peak memory of `gloam run` with a plan, for a frame that is read with these planes.
-unsigned long long bytes_of_run(const FrameFiles& files, const std::vector<std::string>& planes, const Plan& plan,
-                                bool shares_memory);
 
 }  // namespace gloam::cli

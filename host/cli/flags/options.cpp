@@ -147,17 +147,12 @@ std::vector<std::string> decoded_channels(const std::vector<std::string>& planes
   return names;
 }
 
-namespace {
-
-/// Adds a note for a history that no pass reads: most likely it was meant for another technique.
 void check_history(const Plan& plan, const FrameFiles& files) {
   if (!files.history() || reads_history(plan)) return;
   note({fmt::format(
       "--history: '{}' takes nothing over from the frame before; ambient occlusion, indirect light and reflections do",
       plan.technique)});
 }
-
-}  // namespace
 
 PlanRequest going_on(PlanRequest request, const FrameFiles& files, bool temporal) {
   // Accumulation is of a technique: a name of planes, such as ao, stands for their default one, as for gloam run.

@@ -56,7 +56,10 @@ std::vector<std::string> decoded_channels(const std::vector<std::string>& planes
 /// Whether a plan reads anything of the frame before.
 bool reads_history(const Plan& plan);
 
-/// `plan_for_files`. Adds a note for a history that the plan does not read.
+/// Adds a note for a history that no pass reads: most likely it was meant for another technique.
+void check_history(const Plan& plan, const FrameFiles& files);
+
+/// `plan_for_files`, with `check_history`.
 Plan plan_for(const FrameFiles& files, const PlanRequest& request);
 
 /// A request that goes on over time if the frame has a history, or with --temporal. Adds a note where the latter begins a sequence.

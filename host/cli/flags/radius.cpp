@@ -33,15 +33,6 @@ void RadiusReport::add_to(Json& document) const {
   document["radius_pixels"] = pixels_ ? number_or_inf(*pixels_) : Json();
 }
 
-std::optional<Radius> settle_radius(PlanRequest& request, Plan& plan, const Frame& frame, std::optional<double> stated,
-                                    const std::vector<std::string>& available, const std::string& holds) {
-  const Radius made = default_radius(frame, stated);
-  if (!radius_of(plan, request, made.from)) return {};
-  request.radius = made.value;
-  plan = make_plan(request, available, holds);
-  return radius_of(plan, request, made.from);
-}
-
 std::optional<RadiusReport> report_on(const std::optional<Radius>& radius, const Frame& frame, const Plan& plan) {
   return radius ? std::optional(RadiusReport(*radius, frame, cap_of(plan))) : std::nullopt;
 }

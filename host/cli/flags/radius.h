@@ -27,10 +27,6 @@ class RadiusReport {
   std::string words_;
 };
 
-/// Chooses a radius for a request without one, and makes its plan again. None if the plan has no radius.
-std::optional<Radius> settle_radius(PlanRequest& request, Plan& plan, const Frame& frame, std::optional<double> stated,
-                                    const std::vector<std::string>& available, const std::string& holds);
-
 /// A report on the radius of a plan, if it has one.
 std::optional<RadiusReport> report_on(const std::optional<Radius>& radius, const Frame& frame, const Plan& plan);
 

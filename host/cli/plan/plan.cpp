@@ -6,6 +6,7 @@
 #include "cli/flags/options.h"
 #include "cli/flags/radius.h"
 #include "run/checks.h"
+#include "sequence/plan_files.h"
 
 namespace gloam::cli {
 namespace {

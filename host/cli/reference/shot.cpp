@@ -1,19 +1,15 @@
 #include "cli/reference/shot.h"
 
 #include <algorithm>
-#include <limits>
 
-#include "base/elapsed.h"
 #include "base/file_ledger.h"
-#include "base/files.h"
 #include "cli/flags/radius.h"
 #include "cli/shot/report.h"
 #include "cli/shot/shot.h"
-#include "cli/shot/start.h"
 #include "gloam/error.h"
 #include "gloam/frame_numbers.h"
 #include "gloam/visualise.h"
-#include "sequence/frame_making.h"
+#include "shot/shot_run.h"
 
 namespace gloam::cli {
 namespace {
@@ -23,20 +19,19 @@ std::filesystem::path checkpoint_of(const FramePattern& output, int frame) {
   return output.path_of(frame).string() + ".partial";
 }
 
-/// The frames of a shot, one after another.
-class TruthsOfShot {
+/// Truths of the frames, one after another: a scene that stays the same is prepared once.
+class TruthStep : public FrameStep {
  public:
-  TruthsOfShot(const ReferenceCommand& flags, const ReferenceJob& job, const ShotFiles& shot,
-               const FramePattern& output, ShotReport& report)
-      : flags_(flags), job_(job), shot_(shot), output_(output), report_(report), scene_(flags.scene.named(), note) {
+  TruthStep(const ReferenceCommand& flags, const ReferenceJob& job, const FramePattern& output, ShotReport& report)
+      : flags_(flags), job_(job), output_(output), report_(report), scene_(flags.scene.named(), note) {
     if (!flags.picture.empty()) pictures_.emplace(flags.picture, "--picture");
   }
 
   /// Throws UsageError where no frame could be traced, for lack of a scene. Frames that cannot be read are told in their turn.
-  void check_scene() {
-    for (const SequenceFrame& frame : shot_.frames()) {
+  void check_scene(const ShotFiles& shot) {
+    for (const SequenceFrame& frame : shot.frames()) {
       try {
-        scene_.load_for(shot_.open(frame).files().front());
+        scene_.load_for(shot.open(frame).files().front());
         return;
       } catch (const UsageError&) {
         throw;
@@ -46,17 +41,16 @@ class TruthsOfShot {
     }
   }
 
-  /// Until the disk is full.
-  void trace_all() {
-    bool goes_on = true;
-    for (const SequenceFrame& frame : shot_.frames()) {
-      StepTimes times;
-      const bool is_done = report_.attempt(
-          frame.number, [&] { return trace(frame, times); }, [&] { goes_on = false; });
-      if (is_done) report_.done(frame.number, times);
-      if (!goes_on) return;
-    }
+  std::vector<ShotOutput> outputs() const override { return {{output_, ""}}; }
+
+  std::string settings_of(const FrameFiles& files) override {
+    scene_.load_for(files.files().front());
+    std::string how = fmt::format("reference {}{}; {}", flags_.request.what, flags_.given, scene_.identity());
+    if (!job_.identity.empty()) how += "; " + job_.identity;
+    return how;
   }
+
+  std::unique_ptr<FrameWork> begin(const FrameTurn& turn, FrameFiles files) override;
 
   /// "ao, ao_noise; radius 0.5 scene units"
   std::string contents() const {
@@ -76,45 +70,7 @@ class TruthsOfShot {
   }
 
  private:
-  /// False for a frame that --resume leaves alone.
-  bool trace(const SequenceFrame& frame, StepTimes& times) {
-    auto start = std::chrono::steady_clock::now();
-    const auto lap = [&] {
-      const double ms = 1000 * seconds_since(start);
-      start = std::chrono::steady_clock::now();
-      return ms;
-    };
-    FrameFiles files = shot_.open(frame);
-    scene_.load_for(files.files().front());
-    const FrameMaking making = making_of(files);
-    const std::filesystem::path out = output_.path_of(frame.number);
-    if (flags_.resume && report_.leaves_alone(frame.number, out, why_again(out, making))) return false;
-    times.decode = lap();
-    const std::filesystem::path checkpoint = checkpoint_of(output_, frame.number);
-    ReferenceOptions options;
-    options.seed = seed_of(frame.number);
-    options.checkpoint = checkpoint;
-    options.progress = [&](double share) { report_.in_frame(share); };
-    TracedFrame traced = trace_frame(flags_, job_, files, scene_, options);
-    times.compute = lap();
-    traced.truth.frame.attributes.merge(attributes_of(making));
-    write_frame(out, traced.truth.frame, {flags_.half, flags_.compression});
-    std::error_code gone;
-    std::filesystem::remove(checkpoint, gone);
-    if (pictures_) write_pictures(pictures_->path_of(frame.number).string(), job_, traced);
-    times.write = lap();
-    look_at(frame.number, traced);
-    return true;
-  }
-
-  FrameMaking making_of(const FrameFiles& files) const {
-    std::string how = fmt::format("reference {}{}; {}", flags_.request.what, flags_.given, scene_.identity());
-    if (!job_.identity.empty()) how += "; " + job_.identity;
-    return {GLOAM_VERSION, how, identity_of(files)};
-  }
-
-  /// Frames have rays of their own: their noise differs, and is in no frame what it was in the one before.
-  uint32_t seed_of(int number) const { return uint32_t(flags_.seed) + uint32_t(number); }
+  class Work;
 
   /// What holds for one frame mostly holds for all, and is told of the first.
   void look_at(int number, const TracedFrame& traced) {
@@ -133,7 +89,6 @@ class TruthsOfShot {
 
   const ReferenceCommand& flags_;
   const ReferenceJob& job_;
-  const ShotFiles& shot_;
   const FramePattern& output_;
   ShotReport& report_;
   SceneOfFrame scene_;
@@ -143,6 +98,42 @@ class TruthsOfShot {
   std::optional<Radius> radius_;  ///< of the first frame
   bool is_looked_at_ = false;
 };
+
+class TruthStep::Work : public FrameWork {
+ public:
+  Work(TruthStep& step, FrameFiles files) : step_(step), files_(std::move(files)) {}
+
+  void decode() override {}  // trace_frame does
+
+  void compute() override {
+    const int number = turn.frame.number;
+    ReferenceOptions options;
+    // Frames have rays of their own: their noise differs, and is in no frame what it was in the one before.
+    options.seed = uint32_t(step_.flags_.seed) + uint32_t(number);
+    options.checkpoint = checkpoint_of(step_.output_, number);
+    options.progress = [&](double share) { step_.report_.in_frame(share); };
+    traced_ = trace_frame(step_.flags_, step_.job_, files_, step_.scene_, options);
+    traced_.truth.frame.attributes.merge(attributes_of(making));
+  }
+
+  void write() override {
+    const int number = turn.frame.number;
+    write_frame(step_.output_.path_of(number), traced_.truth.frame, {step_.flags_.half, step_.flags_.compression});
+    std::error_code gone;
+    std::filesystem::remove(checkpoint_of(step_.output_, number), gone);
+    if (step_.pictures_) write_pictures(step_.pictures_->path_of(number).string(), step_.job_, traced_);
+    step_.look_at(number, traced_);
+  }
+
+ private:
+  TruthStep& step_;
+  FrameFiles files_;
+  TracedFrame traced_;
+};
+
+std::unique_ptr<FrameWork> TruthStep::begin(const FrameTurn& /*turn*/, FrameFiles files) {
+  return std::make_unique<Work>(*this, std::move(files));
+}
 
 }  // namespace
 
@@ -163,8 +154,7 @@ void reference_on_shot(const ReferenceCommand& flags, const ReferenceJob& job) {
                      flags.picture, flags.frame);
   const FramePattern output(flags.out, "-o");
   const ShotFiles shot({.frame = flags.frame}, flags.frame_flags, flags.choice);
-  const NamedPatterns outputs = {{"-o", output}};
-  NamedPatterns all = outputs;
+  NamedPatterns all = {{"-o", output}};
   if (!flags.picture.empty()) all.emplace_back("--picture", FramePattern(flags.picture, "--picture"));
   for (const SequenceFrame& frame : shot.frames())
     writes_file("the unfinished", checkpoint_of(output, frame.number), OutputUse::grows);
@@ -173,12 +163,13 @@ void reference_on_shot(const ReferenceCommand& flags, const ReferenceJob& job) {
                {"--environment", flags.request.environment}},
               {{"--json", flags.json.file()}});
   ShotReport report(shot.frames().size(), flags.json);
-  TruthsOfShot truths(flags, job, shot, output, report);
-  truths.check_scene();
-  const ShotStart start(outputs, shot.numbers());
-  truths.trace_all();
-  truths.add_notes();
-  report.finish(flags.out, truths.contents());
+  TruthStep step(flags, job, output, report);
+  step.check_scene(shot);
+  ShotRun run(shot, step, {.version = GLOAM_VERSION, .resumes = flags.resume}, report);
+  say_how_to_go_on();
+  run.run();
+  step.add_notes();
+  report.finish(flags.out, step.contents());
 }
 
 }  // namespace gloam::cli

@@ -10,7 +10,7 @@
 #include "cli/flags/options.h"
 #include "cli/flags/radius.h"
 #include "cli/run/outputs.h"
-#include "cli/run/steps.h"
+#include "gloam/compute.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "gloam/provenance.h"
@@ -196,7 +196,7 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   check_picture_name(flags.picture, "--picture");
   std::vector<NamedPath> inputs = flags.frame.inputs();
   inputs.emplace_back("--camera", flags.frame_flags.camera);
-  std::vector<NamedPath> files_written = outputs.named();
+  std::vector<NamedPath> files_written = named(outputs);
   files_written.insert(files_written.end(), {{"--picture", flags.picture}, {"--json", flags.json.file()}});
   check_paths(inputs, files_written);
   const bool carries_depth = !flags.bare && !flags.out.empty();
@@ -204,6 +204,7 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   check_pictures({"--picture", flags.picture}, opened.views());
   const PlanRequest over_time = going_on(request, opened, flags.technique_flags.temporal);
   PlannedFrame planned = planned_frame(std::move(opened), over_time, carries_depth);
+  check_history(planned.plan, planned.files);
   if (flags.out.empty()) keep_first_output(planned, carries_depth);
   const OutputSettings writing = output_settings(flags, flags.half, planned.request, planned.plan);
   if (outputs.has_composite())
@@ -228,7 +229,9 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   watch.lap("decode");
   note(frame.assumed);
   note(sources.notes);
-  const std::optional<Radius> settled = settle(planned, frame);
+  std::vector<std::string> notes;
+  const std::optional<Radius> settled = settle(planned, frame, notes);
+  note(notes);
   const Plan& plan = planned.plan;
   const std::optional<RadiusReport> radius = report_on(settled, frame, plan);
   note(notes_about_views(plan, frame));
@@ -241,15 +244,15 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   const std::optional<double> missed = missed_share(planned.request, plan, frame, result.frame, device, options);
   if (missed) watch.lap("missed");
   if (files.history() && reads_history(plan))
-    add_warning_about_history(frame, result.frame,
-                              fmt::format("--history {}: shows next to nothing that {} shows",
-                                          files.history()->file().path().string(), files.name()));
+    note(warning_about_history(frame, result.frame,
+                               fmt::format("--history {}: shows next to nothing that {} shows",
+                                           files.history()->file().path().string(), files.name())));
   carry_over(frame, result.frame, {.depth = carries_depth, .cameras = !flags.bare});
   result.frame.attributes = provenance({{&plan}}, options);
   const std::vector<std::string> pictures = write_pictures(flags.picture, result.frame, frame, pictured(plan));
   note(write_outputs(outputs, sources, result.frame, writing));
   watch.lap("write");
-  std::vector<std::string> written = outputs.paths();
+  std::vector<std::string> written = paths_of(outputs);
   written.insert(written.end(), pictures.begin(), pictures.end());
   Json figures = document(flags, plan, result, missed, device.info(), decoded_channels(planned.planes, files), watch);
   figures["memory_bytes"] = memory;

@@ -27,7 +27,7 @@ void run_command(const RunCommand& given, const CLI::App& command) {
     flags.repeated = repeated_words(command, not_of_chunks);
     return run_on_shot(flags, request);
   }
-  check_no_shot(flags.frame, outputs_of(flags).named(), flags.shot.any(flags.into.empty()));
+  check_no_shot(flags.frame, named(outputs_of(flags)), flags.shot.any(flags.into.empty()));
   run_on_frame(flags, request);
 }
 

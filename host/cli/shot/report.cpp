@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <new>
 
 #include "base/elapsed.h"
 #include "base/files.h"
@@ -11,9 +10,6 @@
 
 namespace gloam::cli {
 namespace {
-
-/// So many frames in a row without space: the disk is full.
-constexpr size_t most_without_space = 3;
 
 /// Seconds.
 constexpr double least_between_drawings = 0.1;
@@ -39,79 +35,38 @@ ShotReport::ShotReport(size_t frames, const JsonFlag& json) : frames_(frames), j
 double ShotReport::seconds() const { return seconds_since(start_); }
 
 void ShotReport::done(int frame, const StepTimes& times) {
-  const std::lock_guard lock(mutex_);
   ++done_;
   sums_.decode += times.decode, sums_.compute += times.compute, sums_.write += times.write;
-  for (const Failure& failure : without_space_) tell(failure);
-  without_space_.clear();
+  if (!is_disk_full_) {
+    for (const Failure& failure : without_space_) tell(failure);
+    without_space_.clear();
+  }
   end_frame(
       {{"frame", frame}, {"status", "done"}, {"error", nullptr}, {"ms", times.decode + times.compute + times.write}});
 }
 
 void ShotReport::skipped(int frame) {
-  const std::lock_guard lock(mutex_);
   ++skipped_;
   end_frame({{"frame", frame}, {"status", "skipped"}, {"error", nullptr}, {"ms", 0}});
 }
 
-void ShotReport::failed(int frame, const std::string& why) {
-  const std::lock_guard lock(mutex_);
+void ShotReport::failed(int frame, const std::string& why, bool lacks_space) {
   failed_.push_back(frame);
-  tell({frame, why});
-  end_frame({{"frame", frame}, {"status", "failed"}, {"error", why}, {"ms", nullptr}});
-}
-
-bool ShotReport::found_no_space(int frame, const std::string& why) {
-  const std::lock_guard lock(mutex_);
-  failed_.push_back(frame);
-  without_space_.push_back({frame, why});
-  is_disk_full_ |= without_space_.size() >= most_without_space;
-  end_frame({{"frame", frame}, {"status", "failed"}, {"error", why}, {"ms", nullptr}});
-  return is_disk_full_;
-}
-
-bool ShotReport::attempt(int frame, const std::function<bool()>& step, const std::function<void()>& stop,
-                         bool is_told) {
-  std::string why;
-  try {
-    return step();
-  } catch (const Error& error) {
-    if (is_lack_of_space(error)) {
-      if (found_no_space(frame, error.what())) stop();
-      return false;
-    }
-    why = error.what();
-  } catch (const std::bad_alloc&) {
-    why = "out of memory; --memory sets how much is used";
-  } catch (const std::exception& error) {
-    why = error.what();
+  if (lacks_space) {
+    without_space_.push_back({frame, why});
+    is_disk_full_ |= without_space_.size() >= most_without_space;
+  } else {
+    tell({frame, why});
   }
-  if (is_told)
-    failed(frame, why);
-  else
-    note({fmt::format("frame {}: failed, and frames that go on from it begin anew: {}", frame, why)});
-  return false;
+  end_frame({{"frame", frame}, {"status", "failed"}, {"error", why}, {"ms", nullptr}});
 }
 
 void ShotReport::in_frame(double share_done) {
-  const std::lock_guard lock(mutex_);
   share_done_ = share_done;
   draw();
 }
 
-void ShotReport::written_again(int frame, const std::filesystem::path& file, const std::string& why) {
-  if (!std::filesystem::exists(file)) return;
-  const std::lock_guard lock(mutex_);
-  again_[why].push_back(frame);
-}
-
-bool ShotReport::leaves_alone(int frame, const std::filesystem::path& file, const std::string& why) {
-  if (why.empty())
-    skipped(frame);
-  else
-    written_again(frame, file, why);
-  return why.empty();
-}
+void ShotReport::written_again(int frame, const std::string& why) { again_[why].push_back(frame); }
 
 void ShotReport::end_frame(Json line) {
   share_done_ = 0;
@@ -174,7 +129,7 @@ void ShotReport::finish(const std::string& output, const std::string& contents) 
   }
   for (auto& [why, frames] : again_) {
     std::sort(frames.begin(), frames.end());
-    note({fmt::format("--resume: written again: {}: {}", frames_in_words(frames), why)});
+    note(fmt::format("--resume: written again: {}: {}", frames_in_words(frames), why));
   }
   if (json_.only_json()) {
     std::fputs(line_of(summary()).c_str(), stdout);

@@ -1,6 +1,7 @@
 #include "cli/shot/shot.h"
 
 #include "base/file_ledger.h"
+#include "base/files.h"
 #include "gloam/error.h"
 
 namespace gloam::cli {
@@ -46,6 +47,10 @@ void check_outputs(const NamedPatterns& patterns, const ShotFiles& shot, const s
   for (const auto& [flag, pattern] : patterns) outputs.emplace_back(flag, pattern.path_of(first.number).string());
   outputs.insert(outputs.end(), other_outputs.begin(), other_outputs.end());
   check_paths({}, outputs);
+}
+
+void say_how_to_go_on() {
+  say_on_interruption("frames that were written are whole; the same command with --resume goes on");
 }
 
 }  // namespace gloam::cli

@@ -33,4 +33,7 @@ using NamedPatterns = std::vector<std::pair<std::string, FramePattern>>;
 /// As `check_paths`, with the outputs of all frames; what the shot reads it has told itself.
 void check_outputs(const NamedPatterns& patterns, const ShotFiles& shot, const std::vector<NamedPath>& other_outputs);
 
+/// From now on an interruption says that the frames written are whole, and what goes on.
+void say_how_to_go_on();
+
 }  // namespace gloam::cli

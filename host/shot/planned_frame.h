@@ -1,16 +1,16 @@
-// The steps of gloam run on one frame, alone or in a shot.
+// A frame of files from its plan to its result: alone, or in a shot.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "cli/flags/options.h"
-#include "cli/run/colour_layer.h"
-#include "gloam/compute.h"
+#include "gloam/frame_files.h"
+#include "gloam/plan.h"
 #include "gloam/radius.h"
+#include "shot/colour_layer.h"
 
-namespace gloam::cli {
+namespace gloam {
 
 /// A frame that is open, with the plan for it.
 struct PlannedFrame {
@@ -35,12 +35,12 @@ unsigned long long bytes_of_colour(const PlannedFrame& planned);
 void keep_first_output(PlannedFrame& planned, bool carries_depth);
 
 /// Fits the plan to the planes as decoded: some may have turned out to be of no use, and the default radius is made from the
-/// depth. Returns the radius, if the plan has one.
-std::optional<Radius> settle(PlannedFrame& planned, const Frame& frame);
+/// depth. Returns the radius, if the plan has one. Appends sentences to `notes`.
+std::optional<Radius> settle(PlannedFrame& planned, const Frame& frame, std::vector<std::string>& notes);
 
-/// Adds a note where a history tells nothing about a frame. `who`: "frame 7: shows next to nothing that the frame before showed", for
-/// that case.
-void add_warning_about_history(const Frame& frame, const Frame& result, const std::string& who);
+/// A sentence where a history tells nothing about a frame; else none. `who`: "frame 7: shows next to nothing that the frame before
+/// showed", for that case.
+std::vector<std::string> warning_about_history(const Frame& frame, const Frame& result, const std::string& who);
 
 /// What an output has besides the planes computed.
 struct Carried {
@@ -52,4 +52,4 @@ struct Carried {
 /// Moves planes, and leaves out cameras that are not wanted.
 void carry_over(Frame& from, Frame& to, const Carried& carried);
 
-}  // namespace gloam::cli
+}  // namespace gloam

@@ -7,7 +7,7 @@
 #include "gloam/exr.h"
 #include "gloam/frame_files.h"
 
-namespace gloam::cli {
+namespace gloam {
 
 struct ColourLayer {
   FrameFiles files;
@@ -22,4 +22,4 @@ ColourLayer open_colour(const std::vector<std::string>& paths, const ReadOptions
 /// Decodes the layer's planes. Appends a sentence on values that are no light, which a composite keeps.
 Frame read_layer(ColourLayer& layer, std::vector<std::string>& notes);
 
-}  // namespace gloam::cli
+}  // namespace gloam

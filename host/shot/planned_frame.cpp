@@ -1,12 +1,14 @@
-#include "cli/run/steps.h"
+#include "shot/planned_frame.h"
 
 #include <algorithm>
 
-#include "cli/flags/memory.h"
-#include "cli/flags/radius.h"
+#include "base/lists.h"
+#include "exr/holdings.h"
 #include "gloam/error.h"
+#include "sequence/plan_files.h"
+#include "shot/memory.h"
 
-namespace gloam::cli {
+namespace gloam {
 namespace {
 
 /// Planes of the list that every view of the frame still has, or will have.
@@ -23,7 +25,7 @@ std::vector<std::string> planes_left(const Frame& frame, const std::vector<std::
 }  // namespace
 
 void plan_again(PlannedFrame& planned, bool carries_depth) {
-  planned.plan = plan_for(planned.files, planned.request);
+  planned.plan = plan_for_files(planned.files, planned.request);
   planned.planes = planned.plan.inputs;
   if (carries_depth && contains(planned.files.common_planes(), "depth")) add_new(planned.planes, "depth");
 }
@@ -47,24 +49,24 @@ unsigned long long bytes_of_colour(const PlannedFrame& planned) {
   return planned.colour ? bytes_to_read(planned.colour->files, planned.colour->planes) : 0;
 }
 
-std::optional<Radius> settle(PlannedFrame& planned, const Frame& frame) {
+std::optional<Radius> settle(PlannedFrame& planned, const Frame& frame, std::vector<std::string>& notes) {
   const std::vector<std::string> left = planes_left(frame, planned.plan.inputs, planned.request.temporal);
   const std::string holds = holdings(planned.files);
   // If a plane turned out to be unusable (normals in the space of an unknown camera), make it instead.
   const bool is_all_left = left.size() == planned.plan.inputs.size();
   if (!is_all_left) planned.plan = make_plan(planned.request, left, holds);
-  return settle_radius(planned.request, planned.plan, frame, stated_radius(planned.files),
+  return settle_radius(planned.request, planned.plan, frame, stated_radius(planned.files.files().front(), notes),
                        is_all_left ? planned.files.common_planes() : left, holds);
 }
 
-void add_warning_about_history(const Frame& frame, const Frame& result, const std::string& who) {
+std::vector<std::string> warning_about_history(const Frame& frame, const Frame& result, const std::string& who) {
   if (!knows_where_surfaces_were(frame))
-    note(
-        {"--temporal: neither a plane 'motion' nor the camera's pose tells where surfaces were in the frame before; "
-         "each "
-         "frame is computed by itself; give the camera of each frame (--camera)"});
-  else if (!goes_on_from_before(result))
-    note({who + "; accumulation begins anew"});
+    return {
+        "--temporal: neither a plane 'motion' nor the camera's pose tells where surfaces were in the frame before; "
+        "each "
+        "frame is computed by itself; give the camera of each frame (--camera)"};
+  if (!goes_on_from_before(result)) return {who + "; accumulation begins anew"};
+  return {};
 }
 
 void carry_over(Frame& from, Frame& to, const Carried& carried) {
@@ -80,4 +82,4 @@ void carry_over(Frame& from, Frame& to, const Carried& carried) {
   }
 }
 
-}  // namespace gloam::cli
+}  // namespace gloam

@@ -1,12 +1,13 @@
-#include "cli/run/colour_layer.h"
+#include "shot/colour_layer.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "cli/flags/options.h"
+#include "base/lists.h"
+#include "exr/holdings.h"
 #include "gloam/error.h"
 
-namespace gloam::cli {
+namespace gloam {
 namespace {
 
 void check_colour(const FrameFiles& files) {
@@ -75,4 +76,4 @@ ColourLayer open_colour(const std::vector<std::string>& paths, const ReadOptions
   return layer;
 }
 
-}  // namespace gloam::cli
+}  // namespace gloam
