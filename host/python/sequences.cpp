@@ -1,5 +1,5 @@
 // gloam.Sequence: the frames of a sequence, and runs over them.
-#include <future>
+#include <algorithm>
 #include <mutex>
 
 #include "base/lists.h"
@@ -9,8 +9,8 @@
 #include "python/frames.h"
 #include "python/outcome.h"
 #include "python/requests.h"
-#include "sequence/sequence_files.h"
-#include "sequence/turns.h"
+#include "shot/history.h"
+#include "shot/shot.h"
 
 namespace gloam::python {
 namespace {
@@ -52,101 +52,103 @@ SharedFrame read_number(const HeldSequence& sequence, int number, const py::dict
   });
 }
 
-/// A run over a sequence, frame by frame: `next` decodes the following frame while it computes one.
+/// What a run over a sequence does with each frame: the outcome is handed to Python.
+class OutcomeStep : public FrameStep {
+ public:
+  class Work;
+  OutcomeStep(std::optional<Camera> camera, PlanRequest request, const RunOptions& options,
+              std::shared_ptr<Device> device)
+      : camera_(std::move(camera)), request_(std::move(request)), options_(options), device_(std::move(device)) {
+    if (!request_.temporal || request_.only_outputs.empty()) return;
+    written_ = request_.only_outputs;
+    request_.only_outputs = with_planes_for_history(written_, request_.outputs.front());
+  }
+
+  bool goes_on() const { return request_.temporal; }
+  std::unique_ptr<FrameWork> begin(const FrameTurn& turn, FrameFiles files) override;
+
+  Interrupts* interrupts = nullptr;  ///< of the call at work
+
+ private:
+  const std::optional<Camera> camera_;
+  PlanRequest request_;
+  const RunOptions options_;
+  const std::shared_ptr<Device> device_;
+  std::vector<std::string> written_;
+  ShotHistory history_;
+};
+
+class OutcomeStep::Work : public FrameWork {
+ public:
+  Work(OutcomeStep& step, FrameFiles files) : step_(step), files_(std::move(files)) {}
+
+  void decode() override {
+    if (step_.request_.temporal) files_.expect_history();
+    held_ = read_planned(files_, step_.request_, step_.camera_);
+  }
+
+  void compute() override {
+    step_.interrupts->poll();
+    const int number = turn.frame.number;
+    RunOptions options = step_.options_;
+    ShotHistory& history = step_.history_;
+    if (!step_.request_.temporal) {
+      outcome = compute_outcome(step_.request_, held_, true, *step_.device_, options, *step_.interrupts);
+    } else {
+      const bool leads_elsewhere = history.follow(turn, common_planes(held_->frame), making);
+      Chained chained{history.chain, step_.written_, fmt::format("frame {}", number)};
+      options.seed = seed_in_sequence(options.seed, number);
+      outcome = compute_outcome(step_.request_, held_, true, *step_.device_, options, *step_.interrupts, &chained);
+      history.has_left(turn);
+      if (leads_elsewhere)
+        outcome.notes.push_back(
+            fmt::format("frame {}: its motion leads to frame {}, which is not computed; accumulation begins anew there",
+                        number, number - 1));
+    }
+    outcome.number = number;
+  }
+
+  Outcome outcome;
+
+ private:
+  OutcomeStep& step_;
+  FrameFiles files_;
+  SharedFrame held_;
+};
+
+std::unique_ptr<FrameWork> OutcomeStep::begin(const FrameTurn& /*turn*/, FrameFiles files) {
+  return std::make_unique<Work>(*this, std::move(files));
+}
+
+/// A run over a sequence, frame by frame.
 class SequenceRun {
  public:
   SequenceRun(SharedSequence sequence, std::optional<Camera> camera, PlanRequest request, const RunOptions& options,
               std::shared_ptr<Device> device)
       : sequence_(std::move(sequence)),
-        camera_(std::move(camera)),
-        request_(std::move(request)),
-        options_(options),
-        device_(std::move(device)) {
-    const std::vector<int> numbers = sequence_->files.numbers();
-    if (!request_.temporal) {
-      for (size_t i = 0; i < numbers.size(); ++i) turns_.push_back({.frame = i, .begins = true});
-    } else {
-      turns_ = turns_of(numbers, 0, std::vector<bool>(numbers.size(), false));
-      if (!request_.only_outputs.empty()) {
-        written_ = request_.only_outputs;
-        request_.only_outputs = with_planes_for_history(written_, request_.outputs.front());
-      }
-    }
-  }
+        step_(std::move(camera), std::move(request), options, std::move(device)),
+        run_(sequence_->files, step_, {.goes_on = step_.goes_on()}, events_) {}
 
-  /// None after the last frame. Threads may share a run: each gets a frame of its own.
+  /// None after the last frame; whoever catches the error of a frame may go on with the next one. Threads may share a run: each gets a frame
+  /// of its own.
   std::optional<Outcome> next() {
     return without_lock([&](Interrupts& interrupts) -> std::optional<Outcome> {
       const std::lock_guard alone(busy_);  // taken without the interpreter's lock, which whoever holds it may need
-      while (turn_ < turns_.size()) {
-        const size_t turn = turn_++;  // whoever catches the error of a frame may go on with the next one
-        Outcome outcome = compute(turn, interrupts);
-        if (turns_[turn].is_written) return outcome;
-      }
-      return {};
+      step_.interrupts = &interrupts;
+      const std::unique_ptr<FrameWork> work = run_.next();
+      if (!work) return {};
+      return std::move(static_cast<OutcomeStep::Work&>(*work).outcome);
     });
   }
 
   size_t frames() const { return sequence_->files.frames().size(); }
 
  private:
-  const SequenceFrame& frame_at(size_t turn) const { return sequence_->files.frames()[turns_[turn].frame]; }
-
-  std::future<SharedFrame> begin_decoding(size_t turn) const {
-    return std::async(std::launch::async, [this, turn] {
-      FrameFiles files = sequence_->files.open(frame_at(turn));
-      if (request_.temporal) files.expect_history();
-      return read_planned(files, request_, camera_);
-    });
-  }
-
-  Outcome compute(size_t turn, Interrupts& interrupts) {
-    std::future<SharedFrame> decoding = decoding_.valid() ? std::move(decoding_) : begin_decoding(turn);
-    if (turn + 1 < turns_.size()) decoding_ = begin_decoding(turn + 1);
-    try {
-      const SharedFrame held = decoding.get();
-      interrupts.poll();
-      Outcome outcome = request_.temporal ? compute_chained(turn, held, interrupts)
-                                          : compute_outcome(request_, held, true, *device_, options_, interrupts);
-      outcome.number = frame_at(turn).number;
-      return outcome;
-    } catch (...) {
-      history_.begin_anew();
-      throw;
-    }
-  }
-
-  Outcome compute_chained(size_t turn, const SharedFrame& held, Interrupts& interrupts) {
-    const int number = frame_at(turn).number;
-    if (turns_[turn].begins) history_.begin_anew();
-    std::string note;
-    if (history_.holds_any() && motion_leads_elsewhere(common_planes(held->frame), number_before_, number)) {
-      note =
-          fmt::format("frame {}: its motion leads to frame {}, which is not computed; accumulation begins anew there",
-                      number, number - 1);
-      history_.begin_anew();
-    }
-    Chained chained{history_, written_, fmt::format("frame {}", number)};
-    RunOptions options = options_;
-    options.seed = seed_in_sequence(options.seed, number);
-    Outcome outcome = compute_outcome(request_, held, true, *device_, options, interrupts, &chained);
-    if (!note.empty()) outcome.notes.push_back(note);
-    number_before_ = number;
-    return outcome;
-  }
-
   const SharedSequence sequence_;
-  const std::optional<Camera> camera_;
-  PlanRequest request_;
-  const RunOptions options_;
-  const std::shared_ptr<Device> device_;
-  std::mutex busy_;  ///< held while a frame is computed
-  std::vector<std::string> written_;
-  std::vector<Turn> turns_;
-  size_t turn_ = 0;
-  int number_before_ = 0;
-  HistoryChain history_;
-  std::future<SharedFrame> decoding_;  ///< last: it ends before what it reads
+  ShotEvents events_;  // an outcome has its notes
+  std::mutex busy_;    ///< held while a frame is computed
+  OutcomeStep step_;
+  ShotRun run_;
 };
 
 std::unique_ptr<SequenceRun> run_over(const SharedSequence& sequence, const py::dict& words,
@@ -157,6 +159,60 @@ std::unique_ptr<SequenceRun> run_over(const SharedSequence& sequence, const py::
   if (request.temporal) check_temporal(request);
   return std::make_unique<SequenceRun>(sequence, given_camera(words), std::move(request), run_options(option_words),
                                        device);
+}
+
+/// What is told of frames that are written.
+class KeptEvents : public ShotEvents {
+ public:
+  void note(const std::string& sentence) override {
+    const std::lock_guard lock(mutex_);
+    add_new(notes, {sentence});
+  }
+  void written_again(int frame, const std::string& why) override { again[frame] = why; }
+  void failed(int frame, const std::string& why, bool /*lacks_space*/) override { failures[frame] = why; }
+
+  std::vector<std::string> notes;
+  std::map<int, std::string> again, failures;
+
+ private:
+  std::mutex mutex_;
+};
+
+/// Numbers of the frames that were written, those left alone, reasons by number of those that failed and of those written again, notes.
+py::tuple write_over(const SharedSequence& sequence, const py::dict& words, const py::dict& request_words,
+                     const py::dict& option_words, const std::shared_ptr<Device>& device, const std::string& path,
+                     const py::dict& writing) {
+  ShotRequest request{.output = path,
+                      .reading = read_options(words),
+                      .computing = plan_request(request_words),
+                      .options = run_options(option_words),
+                      .writing = {.half = py::cast<bool>(writing["half"]),
+                                  .compression = py::cast<std::string>(writing["compression"])},
+                      .keeps_depth = py::cast<bool>(writing["keep_depth"]),
+                      .resumes = py::cast<bool>(writing["resume"])};
+  request.computing.temporal = py::cast<bool>(writing["temporal"]);
+  const std::optional<Camera> camera = given_camera(words);
+  KeptEvents events;
+  ShotSummary summary = without_lock([&](Interrupts& interrupts) {
+    bool is_interrupted = false;
+    request.options.progress = [&](int, int) {
+      if (is_interrupted) throw Interrupted();  // nor are the frames computed that were begun
+      is_interrupted = true;
+      interrupts.poll();
+      is_interrupted = false;
+    };
+    return run_shot(
+        sequence->files, request, [&] { return device; }, events, [&](Frame& frame) { take_camera(camera, frame); });
+  });
+  std::sort(summary.done.begin(), summary.done.end());
+  std::sort(summary.skipped.begin(), summary.skipped.end());
+  const auto by_number = [](const std::map<int, std::string>& reasons) {
+    py::dict dict;
+    for (const auto& [number, why] : reasons) dict[py::int_(number)] = text_of(why);
+    return dict;
+  };
+  return py::make_tuple(summary.done, summary.skipped, by_number(events.failures), by_number(events.again),
+                        texts_of(events.notes), summary.is_disk_full);
 }
 
 }  // namespace
@@ -174,6 +230,8 @@ void add_sequences(py::module_& module) {
   py::class_<SequenceRun>(module, "SequenceRun").def("next", &SequenceRun::next).def("__len__", &SequenceRun::frames);
   module.def("open_sequence", &open_sequence);
   module.def("run_over", &run_over);
+  module.def("write_over", &write_over);
+  module.def("frames_in_words", [](const std::vector<int>& frames) { return frames_in_words(frames); });
 }
 
 }  // namespace gloam::python

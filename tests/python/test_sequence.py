@@ -1,7 +1,9 @@
 """Sequences: the same bits as `gloam run` on a shot, also accumulated over time."""
 
-import subprocess
+import os
+import signal
 import threading
+import time
 
 import numpy
 import pytest
@@ -80,7 +82,84 @@ def test_a_radius_of_its_own_for_each_frame_is_told_once(shot):
     assert [str(note.message) for note in told].count("radius: each frame has its own, made from its depths; radius=... gives one to all") == 0
 
 
+def files_of(folder):
+    return {path.name: path.read_bytes() for path in sorted(folder.iterdir())}
+
+
+@pytest.mark.parametrize("temporal", [False, True])
+def test_written_frames_have_the_pixels_of_the_command(temporal, shot, command, tmp_path):
+    command("run", "gtao", shot / "shot.####.exr", "-o", tmp_path / "ao.####.exr", "--radius", "0.5", "--keep-depth", *(["--temporal"] if temporal else []))
+    written = gloam.Sequence(shot / "shot.####.exr").write("gtao", tmp_path / "py.####.exr", radius=0.5, temporal=temporal, keep_depth=True)
+    assert written == gloam.Written([1, 2, 3, 4, 5, 6], [], {})
+    for number in written.done:
+        ours, theirs = (gloam.read(tmp_path / f"{name}.000{number}.exr", as_stored=True) for name in ("py", "ao"))
+        assert ours.planes == theirs.planes == ["ao", "depth"]
+        for plane in ours.planes:
+            assert numpy.array_equal(ours[plane], theirs[plane]), (number, plane)
+
+
+@pytest.mark.parametrize("temporal", [False, True])
+def test_an_interrupted_write_goes_on(temporal, shot, tmp_path):
+    """Frames are links to a few files, so that there are many; Ctrl-C comes after some of them."""
+    count = 150
+    for folder in ("in", "whole", "cut"):
+        (tmp_path / folder).mkdir()
+    for number in range(1, count + 1):
+        os.link(shot / f"shot.000{1 + number % 6}.exr", tmp_path / "in" / f"shot.{number:04}.exr")
+    sequence = gloam.Sequence(tmp_path / "in" / "shot.####.exr")
+
+    def write(folder, **more):
+        return sequence.write("gtao", tmp_path / folder / "ao.####.exr", radius=0.5, temporal=temporal, **more)
+
+    assert write("whole").done == list(range(1, count + 1))
+    whole = files_of(tmp_path / "whole")
+
+    def interrupt():
+        while len(list((tmp_path / "cut").glob("ao.*"))) < 5:
+            time.sleep(0.001)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    thread = threading.Thread(target=interrupt)
+    thread.start()
+    with pytest.raises(KeyboardInterrupt):
+        write("cut", resume=True)
+    thread.join()
+    cut = files_of(tmp_path / "cut")
+    assert 5 <= len(cut) < count and all(whole[name] == content for name, content in cut.items())
+    rest = write("cut", resume=True)
+    assert len(rest.skipped) == len(cut) and len(rest.done) == count - len(cut) and not rest.again
+    assert files_of(tmp_path / "cut") == whole
+
+
+def test_resuming_writes_again_what_was_made_in_another_way(shot, tmp_path):
+    sequence = gloam.Sequence(shot / "shot.####.exr")
+    out = tmp_path / "ao.####.exr"
+    sequence.write("gtao", out, radius=0.5)
+    assert sequence.write("gtao", out, radius=0.5, resume=True) == gloam.Written([], [1, 2, 3, 4, 5, 6], {})
+    (tmp_path / "ao.0002.exr").write_bytes((tmp_path / "ao.0002.exr").read_bytes()[:-100])
+    (tmp_path / "ao.0003.exr").unlink()
+    assert sequence.write("gtao", out, radius=0.5, resume=True) == gloam.Written([2, 3], [1, 4, 5, 6], {2: "it is damaged"})
+    for more in ({"radius": 0.6}, {"preset": "low"}, {"half": False}, {"compression": "none"}, {"keep_depth": True}, {"outputs": ["ao_raw"]}, {"seed": 3}):
+        written = sequence.write("gtao", out, **{"radius": 0.5, **more}, resume=True)
+        assert written.again == dict.fromkeys(range(1, 7), "it was made with other settings"), more
+        sequence.write("gtao", out, radius=0.5)
+
+
+def test_a_frame_that_cannot_be_written_leaves_the_others(shot, tmp_path):
+    for i in (1, 2, 3):
+        (tmp_path / f"shot.000{i}.exr").write_bytes((shot / f"shot.000{i}.exr").read_bytes()[: 3000 if i == 2 else None])
+    with pytest.raises(gloam.Error, match="1 of 3 frames failed: 2; frame 2: .*shot.0002.exr"):
+        gloam.Sequence(tmp_path / "shot.####.exr").write("gtao", tmp_path / "ao.####.exr", radius=0.5)
+    assert sorted(path.name for path in tmp_path.glob("ao.*")) == ["ao.0001.exr", "ao.0003.exr"]
+
+
 @pytest.mark.parametrize("call, sentence", [
+    (lambda s: gloam.Sequence(s / "shot.####.exr").write("gtao", s / "shot.%04d.exr"), "would be written over an input"),
+    (lambda s: gloam.Sequence(s / "shot.####.exr").write("gtao", s / "ao.exr"), "has no place for the frame's number"),
+    (lambda s: gloam.Sequence(s / "shot.####.exr").write("gtao", s / "ao.####.png"), "name them with .exr"),
+    (lambda s: gloam.Sequence(s / "shot.####.exr").write("gtao", s / "ao.####.exr", compression="zap"), "zap"),
+    (lambda s: gloam.Sequence(s / "shot.####.exr").write("gtao", s / "ao.####.exr", resumme=True), "did you mean 'resume'?"),
+    (lambda s: gloam.Sequence(s / "shot.####.exr").write("normals", s / "ao.####.exr", temporal=True), "normals"),
     (lambda s: gloam.Sequence(s / "none.####.exr"), "no file of this pattern is there"),
     (lambda s: gloam.Sequence(s / "shot.exr"), "Sequence"),
     (lambda s: gloam.Sequence(s / "shot.####.exr", frames="1-9"), "are missing"),

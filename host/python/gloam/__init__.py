@@ -14,7 +14,7 @@ Whatever cannot be done raises `gloam.Error`, whose text is one sentence: what i
 from . import _gloam
 from ._auto import AutoResult, auto
 from ._compare import compare
-from ._files import Run, Sequence, read, write
+from ._files import Run, Sequence, Written, read, write
 from ._gloam import Camera, Device, DeviceInfo, Error, Frame, MissingPlanes, UsageError, devices
 from ._pick import pick
 from ._run import Pass, Result, run
@@ -26,7 +26,7 @@ __version__ = _gloam.version
 
 __all__ = [
     "AutoResult", "Camera", "Device", "DeviceInfo", "Error", "Frame", "MissingPlanes", "Note", "Parameter", "Pass", "Result", "Run", "Scene", "Sequence",
-    "Technique", "UsageError", "auto", "capture", "compare", "devices", "pick", "read", "reference", "run", "scenes", "techniques", "write",
+    "Technique", "UsageError", "Written", "auto", "capture", "compare", "devices", "pick", "read", "reference", "run", "scenes", "techniques", "write",
 ]
 
 for _public in __all__:

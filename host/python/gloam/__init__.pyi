@@ -140,6 +140,14 @@ class Sequence:
     def read(self, number: int, planes: Union[str, List[str], None] = None) -> Frame: ...
     def run(self, technique: str, *, temporal: bool = False, device: Union[Device, str, None] = None,
             settings: Optional[Dict[str, Setting]] = None, **keywords: Any) -> Run: ...
+    def write(self, technique: str, path: Path, *, temporal: bool = False, resume: bool = False, half: bool = True, compression: str = "zip",
+              keep_depth: bool = False, device: Union[Device, str, None] = None, settings: Optional[Dict[str, Setting]] = None,
+              **keywords: Any) -> Written: ...
+
+class Written(NamedTuple):
+    done: List[int]
+    skipped: List[int]
+    again: Dict[int, str]
 
 class Scene:
     def __init__(self, name: Path, **settings: Setting) -> None: ...

@@ -1,9 +1,11 @@
 """read, write and Sequence: frames in EXR files."""
 
+import collections
+
 import numpy
 
 from . import _gloam, _run, _words
-from ._gloam import Frame, UsageError
+from ._gloam import Error, Frame, UsageError
 
 
 def read(file, *, camera=None, fov=None, depth=None, near=None, far=None, background=None, normal_space=None, normal_range=None,
@@ -79,6 +81,11 @@ def write(path, what, *, camera=None, fov=None, compression="zip", half=False):
         raise _words.refusal(f"write: {type(what).__name__} cannot be written; a gloam.Frame, a result of gloam.run, or a dict of arrays can")
 
 
+Written = collections.namedtuple("Written", ["done", "skipped", "again"])
+Written.__doc__ = """The frames of a sequence that were written, by number: done; skipped, left alone since they were whole; again, a dict with why,
+of those done whose files were there already."""
+
+
 class Sequence:
     """The frames of a sequence, in files that are named by a pattern.
 
@@ -132,6 +139,37 @@ class Sequence:
         Without a radius, each frame has its own.
         Raises gloam.Error for a frame that fails; calling next() again goes on with the frame after it.
         """
+        words, run_words = self._request(technique, settings, keywords, ("temporal", "device", "settings"))
+        return Run(self, _gloam.run_over(self._held, self._words, words, bool(temporal), _words.device(device), run_words))
+
+    def write(self, technique, path, *, temporal=False, resume=False, half=True, compression="zip", keep_depth=False, device=None, settings=None,
+              **keywords):
+        """Writes a technique's results, a file for each frame, with the pixels that `gloam run` on a shot writes. Returns a gloam.Written.
+
+        Frames are decoded, computed and written at the same time. Each file has the technique's first output, or `outputs`, and the camera.
+        path: a pattern such as "ao.####.exr".  half: AO as half.  compression: as for gloam.write.  keep_depth: the frame's depth too, and of two
+        eyes the normals.  temporal and the other keywords: as for `run`.
+        resume: leaves frames alone that are whole and were made in the same way: by this method, with the same keywords, from the same files.
+        After an interruption the same call with resume=True goes on, and gives the files that one undisturbed call gives.
+        Raises gloam.Error if frames fail, after the others are written, and where nothing can be written.
+        """
+        own = ("temporal", "resume", "half", "compression", "keep_depth", "device", "settings")
+        words, run_words = self._request(technique, settings, keywords, own)
+        writing = {"temporal": bool(temporal), "resume": bool(resume), "half": bool(half), "keep_depth": bool(keep_depth),
+                   "compression": _words.word("compression", compression)}
+        done, skipped, failed, again, notes, is_disk_full = _gloam.write_over(
+            self._held, self._words, words, run_words, _words.device(device), _words.path("path", path), writing)
+        radius = "radius: each frame has its own, made from its depths; "
+        _words.note([radius + "radius=... gives one to all" if text.startswith(radius) else text for text in notes], stacklevel=2)
+        if failed:
+            way_on = "; free some space, then the same call with resume=True goes on" if is_disk_full else ""
+            first = next(iter(failed))
+            raise Error(f"{len(failed)} of {len(self)} frames failed: {_gloam.frames_in_words(list(failed))}; frame {first}: {failed[first]}{way_on}")
+        return Written(done, skipped, again)
+
+    @staticmethod
+    def _request(technique, settings, keywords, own):
+        """The words of a request and of its run. `own`: keywords of the call itself."""
         options = {name: keywords.pop(name) for name in _run._OPTIONS if name in keywords}
         if options.get("repeat") not in (None, 1):
             raise _words.refusal(f"repeat {options['repeat']}: times one frame; leave it out, or run one frame alone")
@@ -140,9 +178,8 @@ class Sequence:
         planes, parameters = _run.divided(keywords)
         if planes:
             raise _words.refusal(f"{_gloam.enumerate(list(planes))}: planes come with the frames; leave them out")
-        _run.check_names(parameters, tuple(name for name in _run._OPTIONS if name not in ("repeat", "strips")) + ("temporal", "device", "settings"))
-        words, run_words = _run.request_words(technique, parameters, settings, options)
-        return Run(self, _gloam.run_over(self._held, self._words, words, bool(temporal), _words.device(device), run_words))
+        _run.check_names(parameters, tuple(name for name in _run._OPTIONS if name not in ("repeat", "strips")) + own)
+        return _run.request_words(technique, parameters, settings, options)
 
     def __repr__(self):
         return repr(self._held)
