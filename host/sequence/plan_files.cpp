@@ -35,6 +35,7 @@ std::optional<double> stated_radius(const FrameFile& file, std::vector<std::stri
 
 std::optional<Radius> settle_radius(PlanRequest& request, Plan& plan, const Frame& frame, std::optional<double> stated,
                                     const std::vector<std::string>& available, const std::string& holds) {
+  if (request.radius) return radius_of(plan, request, RadiusSource::flag);
   const Radius made = default_radius(frame, stated);
   if (!radius_of(plan, request, made.from)) return {};
   request.radius = made.value;

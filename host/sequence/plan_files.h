@@ -19,7 +19,7 @@ Plan plan_for_files(const FrameFiles& files, const PlanRequest& request);
 /// radius is ignored, and a sentence in `notes` says so.
 std::optional<double> stated_radius(const FrameFile& file, std::vector<std::string>& notes);
 
-/// Chooses a radius for a request without one, and makes its plan again. None if the plan has no radius. `stated`: by the frame's header.
+/// Chooses a radius for a request without one, and makes its plan again; a request with one stays as it is. None if the plan has no radius. `stated`: by the frame's header.
 std::optional<Radius> settle_radius(PlanRequest& request, Plan& plan, const Frame& frame, std::optional<double> stated,
                                     const std::vector<std::string>& available, const std::string& holds);
 

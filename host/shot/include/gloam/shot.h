@@ -42,13 +42,13 @@ class ShotEvents {
 
 /// From which files to which, and how. Names are patterns, with a place for the frame's number: "shot.####.exr", "shot.%04d.exr".
 struct ShotRequest {
-  std::vector<std::string> inputs;         ///< one pattern, or one for each eye
-  std::string output;                      ///< the pattern of the files to write
-  std::optional<std::vector<int>> frames;  ///< their numbers; none: all that are there
-  ReadOptions reading;
-  PlanRequest computing;  ///< `outputs`: one technique. With `temporal` each frame goes on from the one before
-  RunOptions options;
-  WriteOptions writing = {.half = true};
+  std::vector<std::string> inputs = {};         ///< one pattern, or one for each eye
+  std::string output = {};                      ///< the pattern of the files to write
+  std::optional<std::vector<int>> frames = {};  ///< their numbers; none: all that are there
+  ReadOptions reading = {};
+  PlanRequest computing = {};  ///< `outputs`: one technique. With `temporal` each frame goes on from the one before
+  RunOptions options = {};
+  WriteOptions writing = {.half = true, .half_planes = {}};
   bool keeps_depth = false;       ///< the frame's depth is written too, and of two eyes the normals
   bool resumes = false;           ///< leaves frames alone that are whole and were made in the same way
   unsigned long long memory = 0;  ///< most memory of the process, bytes; 0: what is available
