@@ -66,7 +66,8 @@ def test_everything_public_says_what_it_is():
 def test_keywords_of_run_are_neither_planes_nor_parameters():
     from gloam import _gloam, _run
 
-    options = {"camera", "fov", "views", "device", "settings", "frame", "technique", "temporal", *_run._OPTIONS}
+    options = {"camera", "fov", "views", "device", "settings", "frame", "technique", "temporal", "path", "resume", "half", "compression", "keep_depth",
+               *_run._OPTIONS}
     for technique in gloam.techniques().values():
         # As on the command line, `filter` is the technique that follows; settings={"filter": ...} is the parameter.
         assert options & set(technique.parameters) <= {"filter"}, technique.name
