@@ -13,6 +13,7 @@
 #include "gloam/error.h"
 #include "gloam/technique.h"
 #include "report/markdown_text.h"
+#include "technique/ambient_occlusion.h"
 
 namespace gloam::report {
 namespace {
@@ -35,11 +36,14 @@ struct Pair {
   bool is_over_one_layer = false;  ///< `given` takes part in the comparison for the least error
 };
 
-/// The method whose variant over all peeled layers a technique is, else its own name.
+/// The method whose variant over all peeled layers a technique is, else its own name. One that is not registered here, of a plugin or of
+/// another version, is told by what it reads and by its name.
 std::string name_of_pair(const Converged& each) {
-  for (const Technique& t : registry())
-    if (t.name == each.technique && t.variant.layers == Layers::peeled) return t.variant.of;
-  return each.technique;
+  for (const Technique& t : registry()) {
+    if (t.name == each.technique) return t.variant.layers == Layers::peeled ? t.variant.of : t.name;
+  }
+  const bool is_named_after = reads_peeled_layers(each.reads) && each.technique.starts_with(peeled_prefix);
+  return each.technique.substr(is_named_after ? peeled_prefix.size() : 0);
 }
 
 std::vector<Pair> pairs_of(const std::vector<Converged>& list) {

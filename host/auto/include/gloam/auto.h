@@ -129,9 +129,9 @@ using FixedEffects = std::map<std::string, FixedEffect>;
 struct AutoSettings {
   MaskUse mask = MaskUse::measured;
   bool measures = false;  ///< everything is also computed everywhere, and timed
-  AutoPurpose purpose;
+  AutoPurpose purpose = {};
   RadiusSource radius_from = RadiusSource::frame;
-  BudgetGoal goal;  ///< empty: effects are computed at the preset and the resolution asked for
+  BudgetGoal goal = {};  ///< empty: effects are computed at the preset and the resolution asked for
   /// If set, nothing is weighed on the frame: effects that are not among these are decided by their masks alone.
   std::optional<FixedEffects> fixed = {};
   std::function<void(int done, int of)> measuring = {};  ///< progress of the table of speeds, made once on a device
