@@ -395,7 +395,7 @@ TEST_F(Into, RefusesInOneLine) {
   expect_refused(run_on({one}), 2, {"--output OUT.exr", "--into COPY.exr"});
   for (const char* flag : {"--half", "--bare"})
     expect_refused(run_on({one, "--into", file("copy.exr"), flag}), 2, {flag, "which is not given"});
-  expect_refused(run_on({shot, "--into", file("copy.####.exr"), "--keep-depth"}), 2, {"--keep-depth", "none is"});
+  expect_refused(run_on({shot, "--into", file("copy.####.exr"), "--keep-depth"}), 2, {"--keep-depth", "which is not given"});
   expect_refused(run_on({shot, "--composite", file("c.####.exr"), "--float"}), 2, {"--float", "which is not given"});
   expect_refused(run_on({one, "--into", one}), 2, {"--into", "is also the frame"});
   expect_refused(run_on({one, "-o", file("a.exr"), "--into", file("a.exr")}), 2, {"--into", "is also -o"});
