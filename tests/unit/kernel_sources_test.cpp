@@ -4,7 +4,6 @@
 
 #include <sstream>
 
-
 namespace gloam::kernel_sources_test {
 namespace {
 
@@ -34,9 +33,8 @@ TEST(KernelSources, LinesKeepTheirNumbersWhereKernelsAreDropped) {
 }
 
 TEST(KernelSources, TheStructOfParametersIsWrittenFromTheTable) {
-  const ParameterList list = {"Any",
-                              {float_parameter("radius", 0.5, 0, 1, "", ""), bool_parameter("jitter", on, ""),
-                               choice_parameter("falloff", "none", "(quadratic, none)", "")}};
+  const ParameterList list = {float_parameter("radius", 0.5, 0, 1, "", ""), bool_parameter("jitter", on, ""),
+                              choice_parameter("falloff", "none", "(quadratic, none)", "")};
   EXPECT_EQ(struct_of(list), "typedef struct {\n  float radius;\n  int jitter;\n  int falloff;\n} Params;\n");
   EXPECT_EQ(struct_of({}), "");
 }

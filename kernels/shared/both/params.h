@@ -9,8 +9,8 @@
 //     P(choice, falloff,    quadratic, (quadratic, none), "how an occluder fades towards the radius")
 //   PARAMS(NameParams, NAME_PARAMS)
 //
-// Kernels name the struct Params. The host writes it before a kernel's text, from the table (struct_of, technique/kernel_sources.h): OpenCL C
-// has no variadic macros, without which a list of entries of different lengths cannot become a struct.
+// Kernels name the struct Params, whichever technique runs. The host writes it before a kernel's text, from the table (struct_of,
+// technique/kernel_sources.h): OpenCL C has no variadic macros, without which a list of entries of different lengths cannot become a struct.
 // Every value is a 4-byte scalar, so that both sides agree on the layout; bool and choice are ints, and a file is the number of its
 // name (file_name, gloam/parameters.h), which only the host reads.
 #ifndef GLOAM_PARAMS_H
@@ -50,7 +50,7 @@
 #define PARAMS(Type, LIST)                                                         \
   struct Type {                                                                    \
     LIST(PARAM_FIELD)                                                              \
-    static ::gloam::ParameterList table() { return {#Type, {LIST(PARAM_ENTRY)}}; } \
+    static ::gloam::ParameterList table() { return {LIST(PARAM_ENTRY)}; }          \
   };                                                                               \
   static_assert(sizeof(Type) == 4 * (0 LIST(PARAM_ONE)), #Type ": parameters are 4-byte scalars only");
 

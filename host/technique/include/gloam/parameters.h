@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstring>
-#include <initializer_list>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,12 +26,7 @@ struct Parameter {
 };
 
 /// The parameters of a technique, in the order of its kernels' struct.
-struct ParameterList : std::vector<Parameter> {
-  using std::vector<Parameter>::vector;
-  ParameterList(std::string type, std::initializer_list<Parameter> list)
-      : std::vector<Parameter>(list), type(std::move(type)) {}
-  std::string type;  ///< name of the struct ("GtaoParams"); kernels call it Params
-};
+using ParameterList = std::vector<Parameter>;
 
 Parameter float_parameter(const char* name, double initial, double min, double max, const char* unit, const char* help);
 Parameter int_parameter(const char* name, int initial, int min, int max, const char* unit, const char* help);
