@@ -231,11 +231,12 @@ std::string effect_to_pick(const std::vector<std::string>& truths, const std::ve
 }
 
 std::vector<const Technique*> techniques_to_pick(const std::vector<std::string>& names, const std::string& effect,
-                                                 std::vector<Skipped>& left_out) {
+                                                 std::vector<Skipped>& left_out, const VariantChoice& variant) {
   std::vector<const Technique*> techniques;
   const bool all = names.empty();
   for (const std::string& name : all ? techniques_making({effect}) : names) {
     const Technique& technique = find_technique(name);
+    if (all && !fits(technique, variant)) continue;
     if (const std::string why = why_not_measured(technique, {effect}); !why.empty())
       throw UsageError("--techniques {}: {}; there are {}", name, why, enumerate(techniques_making({effect})));
     if (const std::string why = needs_naming(technique); all && !why.empty())

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "gloam/variants.h"
 #include "measure/contest.h"
 #include "measure/own_subject.h"
 
@@ -28,10 +29,10 @@ Picked pick(const Subject& subject, const PickOptions& options, Device& device);
 /// The plane that is picked for: that of the truths, else of the techniques that are named. Throws UsageError for several.
 std::string effect_to_pick(const std::vector<std::string>& truths, const std::vector<std::string>& techniques);
 
-/// The techniques of these names, or all that make the effect but for those of `left_out`, which are tried only if they are named. Throws
-/// UsageError for one that does not make it.
+/// The techniques of these names, or all of this variant that make the effect but for those of `left_out`, which are tried only if they are
+/// named. Throws UsageError for one that does not make it.
 std::vector<const Technique*> techniques_to_pick(const std::vector<std::string>& names, const std::string& effect,
-                                                 std::vector<Skipped>& left_out);
+                                                 std::vector<Skipped>& left_out, const VariantChoice& variant = {});
 
 struct PickedOnFrame {
   Subject subject;

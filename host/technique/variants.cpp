@@ -52,6 +52,11 @@ std::string options_of(const Variant& variant) {
   return fmt::format("{}", fmt::join(options, " "));
 }
 
+bool fits(const Technique& technique, const VariantChoice& choice) {
+  const Variant& is = technique.variant;
+  return is.layers == choice.layers.value_or(is.layers) && is.both_eyes == choice.both_eyes.value_or(is.both_eyes);
+}
+
 std::string variant_name(const std::string& technique, const VariantChoice& choice) {
   const Technique& named = find_technique(technique_for(technique));
   Variant wanted = variant_of(named);

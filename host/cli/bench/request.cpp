@@ -30,7 +30,7 @@ void choose_techniques(BenchOptions& options, const BenchCommand& flags, Measure
   for (const Technique& t : registry()) {
     if (!list.empty()) continue;
     const std::string unlike = why_not_measured(t, options.effects), why = unlike.empty() ? needs_naming(t) : unlike;
-    if (why.empty() && flags.variant.fits(t))
+    if (why.empty() && fits(t, flags.variant))
       options.techniques.push_back(&t);
     else if (!why.empty())
       result.skipped.push_back({t.name, "", "", why});

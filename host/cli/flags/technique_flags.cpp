@@ -39,11 +39,6 @@ void VariantFlags::add_to(CLI::App& app) {
       ->group("Technique");
 }
 
-bool VariantFlags::fits(const Technique& technique) const {
-  const Variant& is = technique.variant;
-  return is.layers == layers.value_or(is.layers) && is.both_eyes == both_eyes.value_or(is.both_eyes);
-}
-
 void TechniqueFlags::add_to(CLI::App& app, bool with_mask) {
   app.add_option("--set", settings, "set a parameter; --radius 0.3 is short for --set radius=0.3 (repeatable)")
       ->type_name("NAME=VALUE")

@@ -18,8 +18,6 @@ namespace gloam::cli {
 struct VariantFlags : VariantChoice {
   void add_to(CLI::App& app);
   bool any() const { return layers || both_eyes; }
-  /// Whether a technique is what is asked for; any is where nothing is.
-  bool fits(const Technique& technique) const;
 };
 
 /// Techniques and their parameters.

@@ -135,8 +135,7 @@ void pick_command(const PickCommand& flags) {
   const std::vector<std::string> named = named_techniques(flags);
   const std::string effect = is_shot ? "ao" : effect_to_pick(flags.truths, named);
   PickOptions options = options_of(flags);
-  options.techniques = techniques_to_pick(named, effect, left_out);
-  if (named.empty()) std::erase_if(options.techniques, [&](const auto* t) { return !flags.variant.fits(*t); });
+  options.techniques = techniques_to_pick(named, effect, left_out, flags.variant);
   if (is_shot && flags.app->get_option("--time")->count() > 0)
     throw UsageError("--time: of a shot all settings are tried; leave it out, or name fewer --techniques or --frames");
   if (is_shot) return pick_shot(flags, options, left_out);

@@ -15,6 +15,9 @@ struct VariantChoice {
   std::optional<bool> both_eyes = {};
 };
 
+/// Whether a technique is what is asked for; any is where nothing is.
+bool fits(const Technique& technique, const VariantChoice& choice);
+
 /// The name of a method's variant: "dp-gtao" for "gtao" over peeled layers. A name that is a variant itself keeps what makes it one, so
 /// that "sd-hbao+" for both eyes is "stereo-sd-hbao+"; "ao" stands for its default technique. Without a choice the name stays.
 /// Throws UsageError, which says what there is, for unknown names, for variants that do not exist and for a choice that contradicts the
