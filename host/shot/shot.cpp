@@ -17,7 +17,6 @@ class CountedEvents : public ShotEvents {
   void note(const std::string& sentence) override { events_.note(sentence); }
   void done(int frame, const StepTimes& times) override {
     summary.done.push_back(frame);
-    in_a_row_ = 0;
     events_.done(frame, times);
   }
   void skipped(int frame) override {
@@ -27,15 +26,17 @@ class CountedEvents : public ShotEvents {
   void written_again(int frame, const std::string& why) override { events_.written_again(frame, why); }
   void failed(int frame, const std::string& why, bool lacks_space) override {
     summary.failed.push_back(frame);
-    summary.is_disk_full |= lacks_space && ++in_a_row_ == most_without_space;
     events_.failed(frame, why, lacks_space);
+  }
+  void disk_is_full() override {
+    summary.is_disk_full = true;
+    events_.disk_is_full();
   }
 
   ShotSummary summary;
 
  private:
   ShotEvents& events_;
-  size_t in_a_row_ = 0;  ///< frames without space
 };
 
 /// All that decides the contents of a frame's file, but for its input and the version: results of other requests differ from it.
@@ -46,7 +47,8 @@ std::string settings_in_words(const ShotRequest& request) {
   const auto add = [&](const char* name, const auto& value) { words += fmt::format(" {}={}", name, value); };
   for (const auto& [name, value] : asked.settings) words += " " + with_hash_of_file(name + "=" + value);
   if (asked.radius) add("radius", *asked.radius);
-  for (const auto& [name, list] : {std::pair{"outputs", asked.only_outputs}, {"extras", asked.with}, {"views", reading.views}})
+  for (const auto& [name, list] :
+       {std::pair{"outputs", asked.only_outputs}, {"extras", asked.with}, {"views", reading.views}})
     if (!list.empty()) add(name, fmt::format("{}", fmt::join(list, ",")));
   for (const auto& [name, word] : {std::pair{"filter", asked.filter},
                                    {"preset", asked.preset},

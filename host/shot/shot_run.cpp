@@ -13,6 +13,9 @@
 namespace gloam {
 namespace {
 
+/// So many frames in a row that lack space on the disk end a shot.
+constexpr size_t most_without_space = 3;
+
 void replace_all(std::string& text, const std::string& what, const std::string& with) {
   for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
     text.replace(at, what.size(), with);
@@ -131,7 +134,9 @@ void ShotRun::fail(const FrameTurn& turn, const std::string& why, bool lacks_spa
     return events_.note(fmt::format("frame {}: failed, and frames that go on from it begin anew: {}", number, why));
   const std::lock_guard lock(telling_);
   events_.failed(number, why, lacks_space);
-  if (lacks_space && ++without_space_ == most_without_space) stop_();
+  if (!lacks_space || ++without_space_ != most_without_space) return;
+  events_.disk_is_full();
+  stop_();
 }
 
 bool ShotRun::attempt(size_t i, double StepTimes::*time, const std::function<bool(Flight&)>& step) {

@@ -52,12 +52,10 @@ void ShotReport::skipped(int frame) {
 
 void ShotReport::failed(int frame, const std::string& why, bool lacks_space) {
   failed_.push_back(frame);
-  if (lacks_space) {
+  if (lacks_space)
     without_space_.push_back({frame, why});
-    is_disk_full_ |= without_space_.size() >= most_without_space;
-  } else {
+  else
     tell({frame, why});
-  }
   end_frame({{"frame", frame}, {"status", "failed"}, {"error", why}, {"ms", nullptr}});
 }
 

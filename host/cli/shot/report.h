@@ -22,6 +22,7 @@ class ShotReport : public ShotEvents {
   void written_again(int frame, const std::string& why) override;
   /// Tells why on standard error, in a line. A lack of space is told once it is known whether later frames have found some.
   void failed(int frame, const std::string& why, bool lacks_space) override;
+  void disk_is_full() override { is_disk_full_ = true; }
   /// Draws how far the frame has come that is worked on: for frames that take long, one after another.
   void in_frame(double share_done);
 

@@ -20,9 +20,6 @@ struct StepTimes {
   double decode = 0, compute = 0, write = 0;
 };
 
-/// So many frames in a row that lack space on the disk end a shot.
-inline constexpr size_t most_without_space = 3;
-
 /// What is told of a shot while it is worked on: override what is of interest. All but `note` are called one at a time; every one may be
 /// called from threads of the run.
 class ShotEvents {
@@ -36,8 +33,10 @@ class ShotEvents {
   virtual void skipped(int /*frame*/) {}
   /// The files of a frame are there, and are written again.
   virtual void written_again(int /*frame*/, const std::string& /*why*/) {}
-  /// A frame ends with an error, and others go on. `lacks_space`: on the disk (`most_without_space`).
+  /// A frame ends with an error, and others go on. `lacks_space`: on the disk.
   virtual void failed(int /*frame*/, const std::string& /*why*/, bool /*lacks_space*/) {}
+  /// So many frames in a row lacked space on the disk that no further one is begun.
+  virtual void disk_is_full() {}
 };
 
 /// From which files to which, and how. Names are patterns, with a place for the frame's number: "shot.####.exr", "shot.%04d.exr".
