@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "auto/mask_words.h"
 #include "auto/report.h"
 #include "base/lists.h"
-#include "base/words.h"
 #include "python/files.h"
 #include "python/frames.h"
 #include "python/memory.h"
@@ -16,9 +16,6 @@
 
 namespace gloam::python {
 namespace {
-
-const Choices<MaskUse> mask_uses = {
-    {"measured", MaskUse::measured}, {"always", MaskUse::always}, {"never", MaskUse::never}};
 
 /// What is asked for beside the request.
 struct AutoWords {
@@ -40,7 +37,7 @@ AutoWords auto_words(const py::dict& words) {
   asked.goal = {above_0(words, "budget"), above_0(words, "error")};
   if (asked.goal.ms && asked.goal.error) throw UsageError("budget and error are both given; give one of them");
   if (const auto mask = py::cast<std::optional<std::string>>(words["mask"]))
-    asked.mask = value_of(*mask, "mask", mask_uses);
+    asked.mask = value_of(*mask, "mask", mask_words);
   asked.measures = py::cast<bool>(words["measure"]);
   asked.composes = py::cast<bool>(words["composite"]);
   if (const auto holds = py::cast<std::optional<std::string>>(words["color_holds"]))

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "auto/mask_words.h"
 #include "cli/auto/explanations.h"
 #include "cli/auto/frame.h"
 #include "cli/auto/report.h"
@@ -138,8 +139,7 @@ void add_auto(CLI::App& app) {
       ->type_name("OUT.exr");
   command->add_option("--explain", flags->explain, "picture of what is called for where, and why")
       ->type_name("OUT.png");
-  add_choice(*command, "--mask", flags->mask,
-             {{"measured", MaskUse::measured}, {"always", MaskUse::always}, {"never", MaskUse::never}},
+  add_choice(*command, "--mask", flags->mask, mask_words,
              "whether an effect is computed only where the frame calls for it; measured (the default): both ways are "
              "timed, 3 rounds in turn, and the mask is used where it saves 5 % or more; of a shot: never");
   command->add_flag("--measure", flags->measure,
