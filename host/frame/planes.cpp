@@ -174,6 +174,15 @@ bool is_lower_case_of(std::string_view lower, std::string_view text) {
 
 }  // namespace
 
+std::vector<std::string> all_plane_names(int layers) {
+  std::vector<std::string> names;
+  for (const PlaneKind& kind : plane_kinds()) names.push_back(kind.name);
+  for (const StackKind& stack : stack_kinds()) {
+    for (int layer = 0; layer < layers; ++layer) names.push_back(layer_name(stack.name, layer));
+  }
+  return names;
+}
+
 std::optional<StackLayer> stack_layer(std::string_view plane) {
   std::optional<StackLayer> layer = numbered(plane);
   if (layer && !is_stack(layer->stack)) layer.reset();

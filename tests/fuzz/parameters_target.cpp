@@ -83,16 +83,8 @@ void check_pass(const Pass& pass) {
     for (const float number : numbers) require(std::isfinite(number), "a table's numbers are finite");
 }
 
-std::vector<std::string> every_plane() {
-  std::vector<std::string> names;
-  for (const PlaneKind& kind : plane_kinds()) names.push_back(kind.name);
-  for (const StackKind& stack : stack_kinds())
-    for (int layer = 0; layer < 3; ++layer) names.push_back(layer_name(stack.name, layer));
-  return names;
-}
-
 void plan_everything(const std::string& text) {
-  static const std::vector<std::string> available = every_plane();
+  static const std::vector<std::string> available = all_plane_names(3);
   const Plan plan = make_plan(request_of(text), available, "the file has everything");
   for (const PlannedPass& planned : plan.passes) {
     check_pass(planned.pass);

@@ -801,7 +801,7 @@ TEST(WriteExr, NamesAndTypesAreThoseOfTheContract) {
 }
 
 /// Every plane that gloam has a name for, and layers of every stack.
-std::vector<std::string> all_plane_names() {
+std::vector<std::string> planes_of_all_kinds() {
   std::vector<std::string> names;
   for (const PlaneKind& kind : plane_kinds()) names.push_back(kind.name);
   for (const StackKind& stack : stack_kinds()) {
@@ -834,12 +834,12 @@ TEST(WriteExr, EveryPlaneIsReadBackByItsName) {
   options.as_stored = true;
   options.normals.space = NormalSpace::view;
   for (const std::vector<std::string>& views : {std::vector<std::string>{""}, {"left", "right"}, {"main", "view2"}}) {
-    const Frame frame = frame_of(all_plane_names(), views);
+    const Frame frame = frame_of(planes_of_all_kinds(), views);
     write_frame(folder / "f.exr", frame);
     FrameFile file(folder / "f.exr", options);
     EXPECT_EQ(file.views(), views);
-    EXPECT_EQ(file.planes().size(), views.size() * all_plane_names().size()) << "each once, and nothing else";
-    const Frame back = file.read(all_plane_names());
+    EXPECT_EQ(file.planes().size(), views.size() * planes_of_all_kinds().size()) << "each once, and nothing else";
+    const Frame back = file.read(planes_of_all_kinds());
     for (const View& view : frame.views) {
       for (const auto& [name, plane] : view.planes) {
         const Plane* read = back.view(view.name).find(name);
@@ -856,7 +856,7 @@ TEST(WriteExr, EveryPlaneIsReadBackByItsName) {
 // A plane alone in a file has no neighbours that could identify it.
 TEST(WriteExr, EveryPlaneAloneIsReadBackByItsName) {
   Folder folder;
-  for (const std::string& name : all_plane_names()) {
+  for (const std::string& name : planes_of_all_kinds()) {
     write_frame(folder / "f.exr", frame_of({name}, {""}));
     const FrameFile file(folder / "f.exr", {});
     const bool leads_to_depth = name == "position";

@@ -57,11 +57,7 @@ TEST(Resolution, APlanEstimatesAndFiltersBetweenTwoResamplings) {
 /// Planes of every kind: of one component, directions, colours.
 TEST(Resolution, WhatComesBackHasAKernel) {
   const std::string source = flatten(resampling().source);
-  Names available;
-  for (const PlaneKind& kind : plane_kinds()) available.push_back(kind.name);
-  for (const StackKind& stack : stack_kinds()) {
-    for (int layer = 0; layer < 4; ++layer) available.push_back(layer_name(stack.name, layer));
-  }
+  const Names available = all_plane_names(4);
   std::set<std::string> kernels;
   for (const Technique& technique : registry()) {
     for (const int resolution : {2, 4}) {

@@ -7,24 +7,10 @@
 #include "run/kernels.h"
 
 namespace gloam::cli {
-namespace {
-
-/// All planes that a frame may have, with some layers of each stack.
-std::vector<std::string> all_planes() {
-  constexpr int layers = 16;
-  std::vector<std::string> planes;
-  for (const PlaneKind& kind : plane_kinds()) planes.push_back(kind.name);
-  for (const StackKind& stack : stack_kinds()) {
-    for (int layer = 0; layer < layers; ++layer) planes.push_back(layer_name(stack.name, layer));
-  }
-  return planes;
-}
-
-}  // namespace
 
 void print_kernel(const std::string& label) {
   const Technique& technique = find_technique(label.substr(0, label.find('/')));
-  const Plan plan = make_plan({.outputs = {technique.name}}, all_planes(), "");
+  const Plan plan = make_plan({.outputs = {technique.name}}, all_plane_names(16), "");
   std::vector<std::string> labels;
   for (const PlannedPass& planned : plan.passes) {
     add_new(labels, planned.label());

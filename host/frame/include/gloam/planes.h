@@ -45,6 +45,9 @@ bool is_stack(std::string_view name);
 /// Throws std::out_of_range for an unknown name.
 const StackKind& stack_kind(std::string_view name);
 
+/// The names of all planes with a fixed meaning, and of the first layers of every stack.
+std::vector<std::string> all_plane_names(int layers);
+
 /// A plane that is one layer of a stack.
 struct StackLayer {
   std::string stack;
