@@ -13,8 +13,8 @@ Frame three_views() {
     View& view = frame.views[i];
     view.name = name;
     view.planes["ao"] =
-        plane_of("ao", 96, 54, {[&](int x, int y) { return x < 10 ? float(y) / 255 : float(i + 1) / 4; }});
-    view.planes["color"] = plane_of("color", 96, 54, {level(1), level(0), level(0)});
+        patterned_plane("ao", 96, 54, {[&](int x, int y) { return x < 10 ? float(y) / 255 : float(i + 1) / 4; }});
+    view.planes["color"] = patterned_plane("color", 96, 54, {level(1), level(0), level(0)});
     if (i == 2) break;
     View next;
     next.camera = view.camera;
@@ -65,7 +65,7 @@ TEST_F(InfoViews, SheetShowsTheFirstResultOfAllViews) {
   EXPECT_EQ(result.out, "wrote " + path("sheet.png").string() + "\n");
   EXPECT_EQ(result.err, "");
   EXPECT_EQ(files(), (std::vector<std::string>{"sheet.png", "views.exr"}));
-  const Picture p = read_png(path("sheet.png"));
+  const Picture p = picture_in(path("sheet.png"));
   std::vector<std::pair<int, int>> places;
   for (const Pixel& grey : greys) places.push_back(find_run(p, grey));
   EXPECT_GT(places[1].first, places[0].first + 480);  // two columns
@@ -78,7 +78,7 @@ TEST_F(InfoViews, SheetShowsTheFirstResultOfAllViews) {
 TEST_F(InfoViews, WhatNamesThePlane) {
   ASSERT_EQ(info({"--sheet", path("sheet.png"), "--scan-line", path("line.png"), "--what", "color"}).status, 0);
   for (const char* name : {"sheet.png", "line.png"}) {
-    const Picture p = read_png(path(name));
+    const Picture p = picture_in(path(name));
     EXPECT_NE(find_run(p, red), nowhere) << name;
     for (const Pixel& grey : greys) EXPECT_EQ(find_run(p, grey), nowhere) << name;
   }
@@ -90,13 +90,13 @@ TEST_F(InfoViews, ScanLineShowsTheMiddleRowOrTheOneAskedFor) {
     all.insert(all.end(), arguments.begin(), arguments.end());
     const Result result = info(all);
     EXPECT_EQ(result.status, 0) << result.err;
-    return find_run(read_png(path("line.png")), {row, row, row}) != nowhere;
+    return find_run(picture_in(path("line.png")), {row, row, row}) != nowhere;
   };
   EXPECT_TRUE(shows_row({}, 27));
   EXPECT_FALSE(shows_row({}, 26));
   EXPECT_TRUE(shows_row({"--row", "0"}, 0));
   EXPECT_TRUE(shows_row({"--row", "53"}, 53));
-  const Picture p = read_png(path("line.png"));
+  const Picture p = picture_in(path("line.png"));
   int above = 0;
   for (const Pixel& grey : greys) {
     EXPECT_GT(find_run(p, grey).second, above);
@@ -106,11 +106,11 @@ TEST_F(InfoViews, ScanLineShowsTheMiddleRowOrTheOneAskedFor) {
 
 TEST_F(InfoViews, ViewsAreThoseSelectedInTheirOrder) {
   ASSERT_EQ(info({"--scan-line", path("line.png"), "--views", "right,left"}).status, 0);
-  const Picture p = read_png(path("line.png"));
+  const Picture p = picture_in(path("line.png"));
   EXPECT_EQ(find_run(p, greys[1]), nowhere);
   EXPECT_EQ(find_run(p, greys[0]).second, find_run(p, greys[2]).second + 160);
   ASSERT_EQ(info({"--sheet", path("sheet.png"), "--view", "middle"}).status, 0);
-  const Picture one = read_png(path("sheet.png"));
+  const Picture one = picture_in(path("sheet.png"));
   EXPECT_NE(find_run(one, greys[1]), nowhere);
   EXPECT_EQ(find_run(one, greys[0]), nowhere);
 }
@@ -124,7 +124,7 @@ TEST_F(InfoViews, FramesOfOneViewAreDrawnToo) {
 TEST_F(InfoViews, InputsAreTakenWhereThereIsNoResult) {
   write_frame(path("inputs.exr"), small_frame(96, 54, {"depth", "color", "normal"}));
   ASSERT_EQ(gloam({"info", path("inputs.exr"), "--sheet", path("sheet.png")}).status, 0);
-  EXPECT_NE(find_run(read_png(path("sheet.png")), {188, 188, 188}), nowhere);  // half the light, through sRGB
+  EXPECT_NE(find_run(picture_in(path("sheet.png")), {188, 188, 188}), nowhere);  // half the light, through sRGB
 }
 
 TEST_F(InfoViews, StandBesideTheOtherForms) {
@@ -161,7 +161,7 @@ TEST_F(InfoViews, APlaneThatSomeViewLacksIsNamed) {
   write_frame(path("views.exr"), frame);
   expect_refused({"--sheet", path("x.png"), "--what", "ao"}, 1, {"--what ao", "view 'middle' has no ao", "--views"});
   ASSERT_EQ(info({"--sheet", path("x.png")}).status, 0);
-  EXPECT_NE(find_run(read_png(path("x.png")), red), nowhere);
+  EXPECT_NE(find_run(picture_in(path("x.png")), red), nowhere);
 }
 
 TEST_F(InfoViews, FilesWithoutAKnownPlaneAreRefused) {

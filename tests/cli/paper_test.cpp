@@ -136,7 +136,7 @@ TEST_F(Cli, APaperOfTwoEyesIsMeasuredAgain) {
     EXPECT_TRUE(fs::exists(path("paper") / file)) << file;
   }
   EXPECT_EQ(pictures, (std::map<std::string, int>{{"figure_5", 4}, {"figure_9", 3}, {"figure_10", 3}}));
-  const auto [any, checked] = purple_halves(read_png(path("paper/figure_9_courtyard.png")));
+  const auto [any, checked] = purple_halves(picture_in(path("paper/figure_9_courtyard.png")));
   EXPECT_GT(any, 0);
   EXPECT_GT(checked, 2 * any);
 }

@@ -195,8 +195,8 @@ TEST_F(Cli, StereoPicturesHaveTheSizeOfTheImageAndALegend) {
             (std::vector<std::string>{"anaglyph.png", "beside.png", "errors.png", "figures.json", "pair.exr"}));
   for (const char* name : {"errors.png", "anaglyph.png", "beside.png"})
     EXPECT_NE(result.out.find(path(name).string()), std::string::npos) << "said to be written";
-  const Picture errors = read_png(path("errors.png")), anaglyph = read_png(path("anaglyph.png")),
-                beside = read_png(path("beside.png"));
+  const Picture errors = picture_in(path("errors.png")), anaglyph = picture_in(path("anaglyph.png")),
+                beside = picture_in(path("beside.png"));
   EXPECT_GT(errors.width, 320) << "the legend's";
   EXPECT_GT(errors.height, height) << "the legend lies under the image";
   EXPECT_EQ(anaglyph.width, width);

@@ -55,13 +55,13 @@ class ContactSheetTest : public PictureTest {
  protected:
   Picture sheet(const Frame& frame, const ContactSheet& options = {"a.exr"}) {
     write_contact_sheet(folder / "sheet.png", frame, options);
-    return read_png(folder / "sheet.png");
+    return picture_in(folder / "sheet.png");
   }
 };
 
 /// A plane of 96 x 54 pixels: drawn five times as large in a tile of 480.
 Plane small(const std::string& name, const std::vector<Pattern>& components) {
-  return plane_of(name, 96, 54, components);
+  return patterned_plane(name, 96, 54, components);
 }
 
 TEST_F(ContactSheetTest, HasATileForEachPlaneInTheOrderOfTheirKinds) {
@@ -78,7 +78,7 @@ TEST_F(ContactSheetTest, HasATileForEachPlaneInTheOrderOfTheirKinds) {
 
 TEST_F(ContactSheetTest, LargeImagesAreReducedToTheTileAndSmallOnesEnlargedByAWholeFactor) {
   const auto size_of = [&](int width, int height, int tile) {
-    const Picture p = sheet(frame_with(plane_of("ao", width, height, {level(0)})), {"a", tile});
+    const Picture p = sheet(frame_with(patterned_plane("ao", width, height, {level(0)})), {"a", tile});
     const Grid grid(tile, 0, false);
     int w = 0, h = 0;
     while (p.at(grid.left(0) + w, grid.top(0)) == Pixel{0, 0, 0}) ++w;
@@ -96,9 +96,10 @@ TEST_F(ContactSheetTest, ReducedColoursAreAveragedAndIdentitiesAreNot) {
   const Pattern stripes = [](int x, int) { return float(x % 2); };
   const Grid grid(480, 270, false);
   const auto instance_colour = [&](const Pattern& ids) {
-    return sheet(frame_with(plane_of("instance", 960, 540, {ids}))).at(grid.left(0) + 100, grid.top(0) + 100);
+    return sheet(frame_with(patterned_plane("instance", 960, 540, {ids}))).at(grid.left(0) + 100, grid.top(0) + 100);
   };
-  const Picture p = sheet(frame_with(plane_of("ao", 960, 540, {stripes}), plane_of("instance", 960, 540, {stripes})));
+  const Picture p =
+      sheet(frame_with(patterned_plane("ao", 960, 540, {stripes}), patterned_plane("instance", 960, 540, {stripes})));
   const Pixel even = instance_colour(level(0)), odd = instance_colour(level(1));
   EXPECT_NE(even, odd);
   for (int x = 0; x < 480; ++x) {
@@ -243,9 +244,9 @@ TEST_F(ContactSheetTest, EveryKindOfPlaneIsDrawnWhateverItHolds) {
   for (const Pattern& values : odd_values) {
     std::vector<Plane> planes;
     for (const PlaneKind& kind : plane_kinds())
-      planes.push_back(plane_of(kind.name, 5, 3, std::vector<Pattern>(kind.components.size(), values)));
-    planes.push_back(plane_of("peel.00", 5, 3, {values}));
-    planes.push_back(plane_of("unheard of", 5, 3, {values, values}));
+      planes.push_back(patterned_plane(kind.name, 5, 3, std::vector<Pattern>(kind.components.size(), values)));
+    planes.push_back(patterned_plane("peel.00", 5, 3, {values}));
+    planes.push_back(patterned_plane("unheard of", 5, 3, {values, values}));
     const size_t count = planes.size();
     const Picture p = sheet(frame_of(std::move(planes)), {"odd", 100});
     const Grid grid(100, 60, true);
@@ -257,14 +258,15 @@ TEST_F(ContactSheetTest, EveryKindOfPlaneIsDrawnWhateverItHolds) {
 TEST_F(ContactSheetTest, PlanesWithAnotherNumberOfComponentsThanTheirKindAreDrawn) {
   for (const PlaneKind& kind : plane_kinds())
     for (const size_t components : {1, 2, 3, 4, 5})
-      EXPECT_GT(sheet(frame_with(plane_of(kind.name, 4, 4, std::vector<Pattern>(components, level(0.3f))))).width, 480)
+      EXPECT_GT(
+          sheet(frame_with(patterned_plane(kind.name, 4, 4, std::vector<Pattern>(components, level(0.3f))))).width, 480)
           << kind.name << " " << components;
 }
 
 TEST_F(ContactSheetTest, FramesOfEverySizeAreReadable) {
   for (const auto& [w, h] : std::vector<std::pair<int, int>>{{1, 1}, {1, 16384}, {16384, 1}, {3, 700}, {700, 3}}) {
-    const Picture p = sheet(frame_with(plane_of("depth", w, h, {[](int x, int y) { return float(x + y + 1); }}),
-                                       plane_of("ao", w, h, {level(0.5f)})));
+    const Picture p = sheet(frame_with(patterned_plane("depth", w, h, {[](int x, int y) { return float(x + y + 1); }}),
+                                       patterned_plane("ao", w, h, {level(0.5f)})));
     EXPECT_EQ(p.width, Grid(480, 0, true).width(2)) << w << "x" << h;
     EXPECT_LE(p.height, 1200) << w << "x" << h;
     EXPECT_EQ(p.at(0, 0), white);
@@ -302,7 +304,7 @@ TEST_F(ContactSheetTest, SaysWhatCannotBeDrawn) {
   refuses(frame, {"a", 63});
   refuses(frame, {"a", 5000});
   EXPECT_THROW(write_contact_sheet(folder / "missing" / "x.png", frame, {"a"}), Error);
-  frame.views[0].planes["depth"] = plane_of("depth", 4, 4, {level(1)});
+  frame.views[0].planes["depth"] = patterned_plane("depth", 4, 4, {level(1)});
   refuses(frame, {"a"});
   frame.views[0].planes.clear();
   refuses(frame, {"a"});

@@ -25,8 +25,8 @@ const std::string sentence =
 /// One colour all over; no surface where `depth` is infinite.
 View view_of(int width, int height, const Pattern& depth = level(2)) {
   View view;
-  view.planes["depth"] = plane_of("depth", width, height, {depth});
-  view.planes["color"] = plane_of("color", width, height, {level(0), level(0.25f), level(0)});
+  view.planes["depth"] = patterned_plane("depth", width, height, {depth});
+  view.planes["color"] = patterned_plane("color", width, height, {level(0), level(0.25f), level(0)});
   return view;
 }
 
@@ -67,13 +67,13 @@ class ExplanationTest : public PictureTest {
   Picture explained(const View& view, const std::vector<Explanation>& effects,
                     const ExplanationText& text = {"frame.exr", "all in all"}) {
     write_explanation(folder / "why.png", view, effects, text);
-    return read_png(folder / "why.png");
+    return picture_in(folder / "why.png");
   }
 };
 
 TEST_F(ExplanationTest, EachEffectHasAPanelUnlessItIsImpossible) {
   const View view = view_of(480, 270);
-  const Plane cells = plane_of("cells", 60, 34, {level(1)});
+  const Plane cells = patterned_plane("cells", 60, 34, {level(1)});
   std::vector<Explanation> effects;
   size_t panels = 1;  // the frame's colour
   for (int i = 0; i < 8; ++i) {
@@ -123,9 +123,9 @@ TEST_F(ExplanationTest, TheTintIsWhereTheCellsAreAboveZeroAndNowhereElse) {
     constexpr int width = 489, height = 275;
     const View view = view_of(width, height, [&](int x, int y) { return is_surface(x, y) ? 2 : inf; });
     const Layout tiles = reduced(Layout(width, height), side);
-    const Plane cells = plane_of("cells", tiles.width, tiles.height, {[&](int x, int y) {
-                                   return is_above_0(x, y) ? 0.01f : x % 2 ? 0 : nan;
-                                 }});
+    const Plane cells = patterned_plane("cells", tiles.width, tiles.height, {[&](int x, int y) {
+                                          return is_above_0(x, y) ? 0.01f : x % 2 ? 0 : nan;
+                                        }});
     Explanation everywhere = effect_with(nullptr, "reflections");
     everywhere.is_everywhere = true;
     const Picture p = explained(view, {effect_with(&cells), everywhere});
@@ -139,12 +139,12 @@ TEST_F(ExplanationTest, TheTintIsWhereTheCellsAreAboveZeroAndNowhereElse) {
 
 TEST_F(ExplanationTest, TheTintIsStrongerWhereThePictureChangesMore) {
   const View view = view_of(480, 272);
-  const Plane cells = plane_of("cells", 60, 34, {[](int, int y) { return y < 30; }});
-  const Plane ramp = plane_of("change", 60, 34, {[](int x, int) { return float(x) * 0.01f; }});
-  const Plane small = plane_of("change", 60, 34, {level(0.1f)}),
-              odd = plane_of("change", 60, 34, {[](int x, int) { return x < 20   ? nan
-                                                                        : x < 40 ? inf
-                                                                                 : -1; }});
+  const Plane cells = patterned_plane("cells", 60, 34, {[](int, int y) { return y < 30; }});
+  const Plane ramp = patterned_plane("change", 60, 34, {[](int x, int) { return float(x) * 0.01f; }});
+  const Plane small = patterned_plane("change", 60, 34, {level(0.1f)}),
+              odd = patterned_plane("change", 60, 34, {[](int x, int) { return x < 20   ? nan
+                                                                               : x < 40 ? inf
+                                                                                        : -1; }});
   std::vector<Explanation> effects;
   for (const Plane* change : {&ramp, &small, &odd}) {
     effects.push_back(effect_with(&cells));
@@ -207,7 +207,7 @@ TEST_F(ExplanationTest, ThePanelsOfCommonSizesAreSharp) {
 
 TEST_F(ExplanationTest, TextStaysInsideTheMarginAndOffThePanels) {
   const View view = view_of(480, 270);
-  const Plane cells = plane_of("cells", 60, 34, {level(0)});
+  const Plane cells = patterned_plane("cells", 60, 34, {level(0)});
   Explanation effect = effect_with(&cells, std::string(300, 'W') + " " + sentence);
   effect.technique = effect.saved = effect.lost = effect.where = sentence + " " + std::string(200, 'M');
   effect.why = sentence + sentence + sentence + std::string("\n\xff\x80");
@@ -229,7 +229,7 @@ TEST_F(ExplanationTest, TextStaysInsideTheMarginAndOffThePanels) {
 TEST_F(ExplanationTest, AViewWithoutColourIsLitFromTheEye) {
   View view = view_of(480, 270);
   view.planes.erase("color");
-  view.planes["normal"] = plane_of("normal", 480, 270, {level(0), level(0.6f), level(0.8f)});
+  view.planes["normal"] = patterned_plane("normal", 480, 270, {level(0), level(0.6f), level(0.8f)});
   const Picture p = explained(view, {});
   const std::vector<Corner> panels = panels_in(p, 480, 270);
   ASSERT_EQ(panels.size(), 1u);

@@ -18,7 +18,7 @@ namespace gloam::test {
 
 using Pattern = std::function<float(int x, int y)>;
 
-inline Plane plane_of(const std::string& name, int width, int height, const std::vector<Pattern>& components) {
+inline Plane patterned_plane(const std::string& name, int width, int height, const std::vector<Pattern>& components) {
   Plane plane{name, {}};
   for (const Pattern& pattern : components) {
     Channel channel(Layout(width, height), std::numeric_limits<float>::quiet_NaN());
@@ -49,7 +49,7 @@ struct Picture {
   }
 };
 
-inline Picture read_png(const std::filesystem::path& path) {
+inline Picture picture_in(const std::filesystem::path& path) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   EXPECT_TRUE(png_image_begin_read_from_file(&png, path.c_str())) << png.message;

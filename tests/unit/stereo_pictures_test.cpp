@@ -29,8 +29,8 @@ TEST_F(StereoPictures, TheLegendIsNotCutBelowASmallPicture) {
     const auto path = folder / "legend.png";
     StereoErrors errors = errors_of(std::vector<StereoPixel>(size_t(width), StereoPixel::background),
                                     std::vector<float>(size_t(width), 0));
-    write_inconsistency_picture(path, plane_of("ao", width, 1, {[](int, int) { return 1.0f; }}), errors, 20);
-    const Picture picture = read_png(path);
+    write_inconsistency_picture(path, patterned_plane("ao", width, 1, {[](int, int) { return 1.0f; }}), errors, 20);
+    const Picture picture = picture_in(path);
     int dark = 0;
     for (int y = 1; y < picture.height; ++y)
       for (int x = 0; x < picture.width; ++x) {
@@ -51,9 +51,9 @@ TEST_F(StereoPictures, ErrorsAreMagnifiedGreyAndWhatDoesNotCountIsPurpleOverTheP
   const StereoErrors errors =
       errors_of({P::counted, P::counted, P::counted, P::hidden, P::outside, P::edge, P::background},
                 {0, grey(5), grey(200), nan, nan, nan, nan});
-  const Plane ao = plane_of("ao", 7, 1, {[](int x, int) { return x == 4 ? 0.0f : 1.0f; }});
+  const Plane ao = patterned_plane("ao", 7, 1, {[](int x, int) { return x == 4 ? 0.0f : 1.0f; }});
   write_inconsistency_picture(path, ao, errors, 20);
-  const Picture picture = read_png(path);
+  const Picture picture = picture_in(path);
   // The image, and a legend under it: the scale from black to white, purple, and hatching.
   ASSERT_GT(picture.width, 320);
   ASSERT_GT(picture.height, 1 + 3 * 12);
@@ -83,21 +83,22 @@ TEST_F(StereoPictures, ErrorsAreMagnifiedGreyAndWhatDoesNotCountIsPurpleOverTheP
 
 TEST_F(StereoPictures, TheAnaglyphIsRedOfTheLeftAndCyanOfTheRight) {
   const auto path = folder / "both.png";
-  write_anaglyph(path, plane_of("ao", 3, 2, {level(grey(40))}), plane_of("ao", 3, 2, {level(grey(90))}));
-  const Picture picture = read_png(path);
+  write_anaglyph(path, patterned_plane("ao", 3, 2, {level(grey(40))}), patterned_plane("ao", 3, 2, {level(grey(90))}));
+  const Picture picture = picture_in(path);
   ASSERT_EQ(picture.width, 3);
   ASSERT_EQ(picture.height, 2);
   EXPECT_EQ(picture.at(2, 1), (Pixel{40, 90, 90}));
   // Colours too: 1 and 0 are the same through any curve.
-  write_anaglyph(path, plane_of("color", 3, 2, {level(1), level(0), level(0)}),
-                 plane_of("color", 3, 2, {level(0), level(1), level(0)}));
-  EXPECT_EQ(read_png(path).at(0, 0), (Pixel{255, 255, 0}));
+  write_anaglyph(path, patterned_plane("color", 3, 2, {level(1), level(0), level(0)}),
+                 patterned_plane("color", 3, 2, {level(0), level(1), level(0)}));
+  EXPECT_EQ(picture_in(path).at(0, 0), (Pixel{255, 255, 0}));
 }
 
 TEST_F(StereoPictures, TheLeftViewIsOnTheLeft) {
   const auto path = folder / "both.png";
-  write_side_by_side(path, plane_of("ao", 3, 2, {level(grey(40))}), plane_of("ao", 3, 2, {level(grey(90))}));
-  const Picture picture = read_png(path);
+  write_side_by_side(path, patterned_plane("ao", 3, 2, {level(grey(40))}),
+                     patterned_plane("ao", 3, 2, {level(grey(90))}));
+  const Picture picture = picture_in(path);
   ASSERT_EQ(picture.width, 6);
   ASSERT_EQ(picture.height, 2);
   EXPECT_EQ(picture.at(2, 1), (Pixel{40, 40, 40}));
@@ -105,7 +106,7 @@ TEST_F(StereoPictures, TheLeftViewIsOnTheLeft) {
 }
 
 TEST_F(StereoPictures, ViewsOfDifferentSizeAreRefused) {
-  const Plane small = plane_of("ao", 3, 2, {level(0)}), large = plane_of("ao", 4, 2, {level(0)});
+  const Plane small = patterned_plane("ao", 3, 2, {level(0)}), large = patterned_plane("ao", 4, 2, {level(0)});
   for (const auto write : {write_anaglyph, write_side_by_side}) {
     const std::string message = message_of([&] { write(folder / "both.png", small, large); });
     EXPECT_NE(message.find("the left image is 3x2 and the right one 4x2"), std::string::npos) << message;

@@ -29,7 +29,7 @@ Frame frame_of(int views, int width, int height, const std::string& plane, const
   for (int i = 0; i < views; ++i) {
     View& view = frame.views.emplace_back();
     view.name = fmt::format("module{:02}", i);
-    view.planes[plane] = plane_of(plane, width, height, {[&](int x, int y) { return values(i, x, y); }});
+    view.planes[plane] = patterned_plane(plane, width, height, {[&](int x, int y) { return values(i, x, y); }});
   }
   return frame;
 }
@@ -37,7 +37,7 @@ Frame frame_of(int views, int width, int height, const std::string& plane, const
 void add_plane(Frame& frame, const std::string& plane, const ViewPattern& values) {
   for (int i = 0; i < int(frame.views.size()); ++i)
     frame.views[size_t(i)].planes[plane] =
-        plane_of(plane, frame.width(), frame.height(), {[&](int x, int y) { return values(i, x, y); }});
+        patterned_plane(plane, frame.width(), frame.height(), {[&](int x, int y) { return values(i, x, y); }});
 }
 
 /// Bounding box; ends exclusive.
@@ -74,11 +74,11 @@ class ViewPicturesTest : public PictureTest {
  protected:
   Picture sheet(const Frame& frame, const std::string& plane, const std::string& title = "a.exr") {
     write_view_sheet(folder / "sheet.png", frame, {title, plane});
-    return test::read_png(folder / "sheet.png");
+    return picture_in(folder / "sheet.png");
   }
   Picture lines(const Frame& frame, const std::string& plane, int row, const std::string& title = "a.exr") {
     write_scan_lines(folder / "lines.png", frame, {title, plane, row});
-    return test::read_png(folder / "lines.png");
+    return picture_in(folder / "lines.png");
   }
 };
 
@@ -90,7 +90,7 @@ Frame coloured_views(int views, int width, int height) {
     View& view = frame.views.emplace_back();
     view.name = fmt::format("module{:02}", i);
     view.planes["normal"] =
-        plane_of("normal", width, height, {level(1), level(float(i % 16) / 16), level(-float(i / 16) / 16)});
+        patterned_plane("normal", width, height, {level(1), level(float(i % 16) / 16), level(-float(i / 16) / 16)});
   }
   return frame;
 }
@@ -312,7 +312,7 @@ TEST_F(ViewPicturesTest, LinesOfEveryKindOfPlaneAreDrawn) {
     Frame frame = frame_of(3, 5, 4, "ao", [](int, int, int) { return 1.0f; });
     const size_t components = std::string(plane) == "motion" ? 2 : std::string(plane) == "reflection" ? 4 : 3;
     for (View& view : frame.views)
-      view.planes[plane] = plane_of(plane, 5, 4, std::vector<Pattern>(components, level(0.3f)));
+      view.planes[plane] = patterned_plane(plane, 5, 4, std::vector<Pattern>(components, level(0.3f)));
     EXPECT_GT(lines(frame, plane, 0).width, 960) << plane;
     EXPECT_GT(sheet(frame, plane).width, 480) << plane;
   }
@@ -331,9 +331,9 @@ TEST_F(ViewPicturesTest, SaysWhatCannotBeDrawn) {
   refuses(frame, "ao", 6, "rows 0 to 5");
   refuses(frame, "ao", -1, "row -1");
   refuses(frame, "depth", 0, "view 'module00' has no 'depth'");
-  frame.views[1].planes["ao"] = plane_of("ao", 8, 5, {level(1)});
+  frame.views[1].planes["ao"] = patterned_plane("ao", 8, 5, {level(1)});
   refuses(frame, "ao", 0, "'ao' is 8x5 and the frame 8x6");
-  frame.views[1].planes["ao"] = plane_of("ao", 8, 6, {level(1), level(1)});
+  frame.views[1].planes["ao"] = patterned_plane("ao", 8, 6, {level(1), level(1)});
   refuses(frame, "ao", 0, "2 components in view 'module01'");
   frame.views[1].planes.clear();
   refuses(frame, "ao", 0, "view 'module01' has no 'ao'");

@@ -28,11 +28,11 @@ class Visualise : public test::PictureTest {
   Picture difference(const Plane& test, const Plane& truth, const Mask& mask,
                      const DifferencePicture& options = {"a.exr", "b.exr"}, const std::string& name = "d.png") {
     write_difference_picture(folder / name, test, truth, mask, compare(test, truth, mask), options);
-    return test::read_png(folder / name);
+    return picture_in(folder / name);
   }
   Picture single(const Plane& plane) {
     write_picture(folder / "p.png", plane);
-    return test::read_png(folder / "p.png");
+    return picture_in(folder / "p.png");
   }
 };
 
@@ -55,9 +55,9 @@ struct Panels {
 bool is_neutral(const Pixel& p) { return p.r == p.g && p.g == p.b; }
 
 TEST_F(Visualise, OneComponentIsGreyWithoutACurve) {
-  const Plane plane = plane_of("ao", 5, 1, {[](int x, int) {
-                                 return std::vector<float>{0, 0.5f, 1, 2, -1}[size_t(x)];
-                               }});
+  const Plane plane = patterned_plane("ao", 5, 1, {[](int x, int) {
+                                        return std::vector<float>{0, 0.5f, 1, 2, -1}[size_t(x)];
+                                      }});
   const Picture p = single(plane);
   ASSERT_EQ(p.width, 5);
   ASSERT_EQ(p.height, 1);
@@ -66,7 +66,7 @@ TEST_F(Visualise, OneComponentIsGreyWithoutACurve) {
 }
 
 TEST_F(Visualise, ColoursGoThroughSrgb) {
-  const Picture p = single(plane_of("color", 2, 3, {level(0.5f), level(0.001f), level(7)}));
+  const Picture p = single(patterned_plane("color", 2, 3, {level(0.5f), level(0.001f), level(7)}));
   ASSERT_EQ(p.height, 3);
   EXPECT_EQ(p.at(1, 2), (Pixel{188, 3, 255}));
 }
@@ -86,29 +86,30 @@ TEST_F(Visualise, SrgbIsExactForEveryByte) {
   }
   const int width = int(values.size());
   const Pattern pattern = [&](int x, int) { return values[size_t(x)]; };
-  const Picture p = single(plane_of("color", width, 1, {pattern, level(-3), level(1e30f)}));
+  const Picture p = single(patterned_plane("color", width, 1, {pattern, level(-3), level(1e30f)}));
   for (int x = 0; x < width; ++x)
     ASSERT_EQ(p.at(x, 0), (Pixel{byte_of(values[size_t(x)]), 0, 255})) << values[size_t(x)];
 }
 
 TEST_F(Visualise, NormalsAreCentredOnGrey) {
-  const Picture p = single(plane_of("normal", 1, 1, {level(-1), level(0), level(1)}));
+  const Picture p = single(patterned_plane("normal", 1, 1, {level(-1), level(0), level(1)}));
   EXPECT_EQ(p.at(0, 0), (Pixel{0, 128, 255}));
 }
 
 TEST_F(Visualise, WhatIsNotANumberIsBlack) {
-  EXPECT_EQ(single(plane_of("ao", 1, 1, {level(nan)})).at(0, 0), (Pixel{0, 0, 0}));
-  EXPECT_EQ(single(plane_of("color", 1, 1, {level(nan), level(nan), level(nan)})).at(0, 0), (Pixel{0, 0, 0}));
+  EXPECT_EQ(single(patterned_plane("ao", 1, 1, {level(nan)})).at(0, 0), (Pixel{0, 0, 0}));
+  EXPECT_EQ(single(patterned_plane("color", 1, 1, {level(nan), level(nan), level(nan)})).at(0, 0), (Pixel{0, 0, 0}));
 }
 
 TEST_F(Visualise, TwoComponentsAreRedAndGreen) {
-  EXPECT_EQ(single(plane_of("motion", 1, 1, {level(1), level(0)})).at(0, 0), (Pixel{255, 0, 0}));
+  EXPECT_EQ(single(patterned_plane("motion", 1, 1, {level(1), level(0)})).at(0, 0), (Pixel{255, 0, 0}));
 }
 
 TEST_F(Visualise, ShowsTestTruthAndTheSignOfTheDifference) {
   const Mask mask(400 * 100, 1);
   const auto sheet = [&](float test, float truth) {
-    return difference(plane_of("ao", 400, 100, {level(test)}), plane_of("ao", 400, 100, {level(truth)}), mask);
+    return difference(patterned_plane("ao", 400, 100, {level(test)}), patterned_plane("ao", 400, 100, {level(truth)}),
+                      mask);
   };
   const Picture bright = sheet(0.8f, 0.4f), dark = sheet(0.4f, 0.8f), equal = sheet(0.4f, 0.4f);
   const Panels panels(bright, 400);
@@ -122,7 +123,8 @@ TEST_F(Visualise, ShowsTestTruthAndTheSignOfTheDifference) {
 }
 
 TEST_F(Visualise, RangeSetsTheEndsOfTheColours) {
-  const Plane test = plane_of("ao", 400, 100, {level(0.54f)}), truth = plane_of("ao", 400, 100, {level(0.5f)});
+  const Plane test = patterned_plane("ao", 400, 100, {level(0.54f)}),
+              truth = patterned_plane("ao", 400, 100, {level(0.5f)});
   const auto colour = [&](float range) {
     const Picture p = difference(test, truth, Mask(400 * 100, 1), {"a", "b", range});
     return Panels(p, 400).middle(p, 2, 100);
@@ -134,8 +136,8 @@ TEST_F(Visualise, RangeSetsTheEndsOfTheColours) {
 
 TEST_F(Visualise, RangeCoversNinetyNineInHundred) {
   // 1 % of the pixels differ by 0.9, the others by 0.15: the range is 0.2, so 0.15 looks as with 0.2 given.
-  const Plane truth = plane_of("ao", 400, 100, {level(0)});
-  const Plane test = plane_of("ao", 400, 100, {[](int x, int y) { return y == 0 && x < 400 ? 0.9f : 0.15f; }});
+  const Plane truth = patterned_plane("ao", 400, 100, {level(0)});
+  const Plane test = patterned_plane("ao", 400, 100, {[](int x, int y) { return y == 0 && x < 400 ? 0.9f : 0.15f; }});
   const Mask mask(400 * 100, 1);
   difference(test, truth, mask, {"a", "b", 0}, "chosen.png");
   difference(test, truth, mask, {"a", "b", 0.2f}, "given.png");
@@ -143,8 +145,8 @@ TEST_F(Visualise, RangeCoversNinetyNineInHundred) {
 }
 
 TEST_F(Visualise, OneComponentOffShowsInColours) {
-  const Plane truth = plane_of("color", 400, 100, {level(0.5f), level(0.5f), level(0.5f)});
-  const Plane test = plane_of("color", 400, 100, {level(0.4f), level(0.52f), level(0.58f)});
+  const Plane truth = patterned_plane("color", 400, 100, {level(0.5f), level(0.5f), level(0.5f)});
+  const Plane test = patterned_plane("color", 400, 100, {level(0.4f), level(0.52f), level(0.58f)});
   const Picture p = difference(test, truth, Mask(400 * 100, 1));
   const Pixel blue = Panels(p, 400).middle(p, 2, 100);  // -0.1 is the largest, the mean is 0
   EXPECT_GT(blue.b, blue.r + 80) << blue;
@@ -154,7 +156,7 @@ TEST_F(Visualise, BackgroundValuesAreNotSeen) {
   Mask mask(400 * 100, 1);
   for (size_t i = 0; i < mask.size(); ++i) mask[i] = i % 400 < 150;
   const auto with = [&](float background) {
-    return plane_of("ao", 400, 100, {[=](int x, int y) { return x < 150 ? float(x + y) / 300 : background; }});
+    return patterned_plane("ao", 400, 100, {[=](int x, int y) { return x < 150 ? float(x + y) / 300 : background; }});
   };
   const Picture p = difference(with(1), with(1), mask, {"a", "b"}, "one.png");
   difference(with(nan), with(-70), mask, {"a", "b"}, "two.png");
@@ -174,7 +176,8 @@ TEST_F(Visualise, SheetsOfEverySizeAreReadable) {
       const std::string name = components == 1 ? "ao" : "color";
       const std::vector<Pattern> a(components, [](int x, int y) { return float((x * 7 + y * 3) % 11) / 11; });
       const std::vector<Pattern> b(components, [](int x, int y) { return float((x * 3 + y * 5) % 13) / 13; });
-      const Picture p = difference(plane_of(name, w, h, a), plane_of(name, w, h, b), Mask(size_t(w) * size_t(h), 1));
+      const Picture p =
+          difference(patterned_plane(name, w, h, a), patterned_plane(name, w, h, b), Mask(size_t(w) * size_t(h), 1));
       EXPECT_GE(p.width, 3 * 320) << w << "x" << h;
       EXPECT_LE(p.width, 4000) << w << "x" << h;
       EXPECT_LE(p.height, 3200) << w << "x" << h;
@@ -184,7 +187,7 @@ TEST_F(Visualise, SheetsOfEverySizeAreReadable) {
 }
 
 TEST_F(Visualise, LongNamesStayInsideTheMargin) {
-  const Plane plane = plane_of("ao", 8, 8, {level(0.5f)});
+  const Plane plane = patterned_plane("ao", 8, 8, {level(0.5f)});
   for (const std::string& name : {std::string(5000, 'W'), std::string(5000, 'i'), std::string("\xc3\xa9t\xc3\xa9.exr"),
                                   std::string("\n\xff\x80"), std::string()}) {
     const Picture p = difference(plane, plane, Mask(64, 1), {name, name});
@@ -195,12 +198,13 @@ TEST_F(Visualise, LongNamesStayInsideTheMargin) {
 }
 
 TEST_F(Visualise, FiguresOfAnySizeAreDrawn) {
-  const Plane a = plane_of("depth", 40, 30, {level(1e30f)}), b = plane_of("depth", 40, 30, {level(-3e-9f)});
+  const Plane a = patterned_plane("depth", 40, 30, {level(1e30f)}),
+              b = patterned_plane("depth", 40, 30, {level(-3e-9f)});
   EXPECT_GT(difference(a, b, Mask(1200, 1)).width, 0);
 }
 
 TEST_F(Visualise, SaysWhatCannotBeDrawn) {
-  const Plane small = plane_of("ao", 3, 2, {level(0)}), large = plane_of("ao", 4, 2, {level(0)});
+  const Plane small = patterned_plane("ao", 3, 2, {level(0)}), large = patterned_plane("ao", 4, 2, {level(0)});
   const fs::path path = folder / "x.png";
   EXPECT_THROW(write_difference_picture(path, small, large, Mask(6, 1), {}, {}), Error);
   EXPECT_THROW(write_difference_picture(path, small, small, Mask(7, 1), {}, {}), Error);
