@@ -102,7 +102,18 @@ void spoil(Frame& frame, Random& random) {
   }
 }
 
-/// Random values for some float parameters of the planned techniques, at the ends of their range or between.
+/// A value between the ends of a parameter's range, or at one of them.
+double any_value_of(const Parameter& p, Random& random) {
+  const double most = std::isinf(p.max) ? 1e9 : p.max, least = std::max(p.min, most * 1e-12);
+  const size_t kind = random.below(4);
+  const double value = kind == 0   ? p.min
+                       : kind == 1 ? p.max
+                       : kind == 2 ? random.uniform(p.min, most)
+                                   : random.of_any_size(least, std::max(most, least));
+  return std::clamp(double(float(value)), p.min, p.max);
+}
+
+/// Random values for some float parameters of the planned techniques.
 Settings any_floats(const Plan& plan, Random& random) {
   Settings settings;
   std::set<std::string> seen;
@@ -110,16 +121,49 @@ Settings any_floats(const Plan& plan, Random& random) {
     for (const Parameter& p : planned.technique->parameters) {
       const std::string name = planned.technique->name + "." + p.name;
       if (p.type != Parameter::Type::floating || !seen.insert(name).second || !random.one_in(4)) continue;
-      const double most = std::isinf(p.max) ? 1e9 : p.max, least = std::max(p.min, most * 1e-12);
-      const size_t kind = random.below(4);
-      const double value = kind == 0   ? p.min
-                           : kind == 1 ? p.max
-                           : kind == 2 ? random.uniform(p.min, most)
-                                       : random.of_any_size(least, std::max(most, least));
-      settings.emplace_back(name, exact(std::clamp(double(float(value)), p.min, p.max)));
+      settings.emplace_back(name, exact(any_value_of(p, random)));
     }
   }
   return settings;
+}
+
+/// What a plan's kernels are compiled with.
+std::vector<Defines> defines_of(const Plan& plan) {
+  std::vector<Defines> all;
+  for (const PlannedPass& planned : plan.passes) all.push_back(planned.pass.defines);
+  return all;
+}
+
+/// The settings, and those of `more` with which no kernel has to be compiled again: a float may switch a part of a kernel off.
+Settings with_same_kernels(const Technique& technique, Frame& frame, Settings settings, const Settings& more) {
+  const std::vector<Defines> defines = defines_of(plan_for(technique, frame, settings));
+  for (const auto& one : more) {
+    const Settings both = settings + Settings{one};
+    if (defines_of(plan_for(technique, frame, both)) == defines) settings = both;
+  }
+  return settings;
+}
+
+/// Settings and a way to run them. A quick run compiles the cheapest preset for both ways and, for one of them each, two settings
+/// that the seed determines: a choice, and floats that may switch parts of kernels off.
+void draw_quick_settings(Draw& drawn, const Technique& technique, const std::vector<RunOptions>& ways, uint32_t seed,
+                         Random& random) {
+  const size_t rare = random.below(8);
+  Settings settings = few_samples(technique);
+  if (rare < ways.size()) {
+    Random of_seed(seed, ~uint32_t(rare));
+    settings = of_seed.pick(variants(technique, drawn.frame));
+    settings = settings + any_floats(plan_for(technique, drawn.frame, settings), of_seed);
+  }
+  const Settings floats = any_floats(plan_for(technique, drawn.frame, settings), random);
+  drawn.settings = with_same_kernels(technique, drawn.frame, settings, floats);
+  drawn.options = ways[rare < ways.size() ? rare : random.below(ways.size())];
+}
+
+void draw_settings(Draw& drawn, const Technique& technique, const std::vector<RunOptions>& ways, Random& random) {
+  if (random.one_in(3)) drawn.settings = random.pick(variants(technique, drawn.frame));
+  drawn.settings = drawn.settings + any_floats(plan_for(technique, drawn.frame, drawn.settings), random);
+  drawn.options = random.pick(ways);
 }
 
 }  // namespace
@@ -152,11 +196,12 @@ Draw draw(const Technique& technique, const Device& device, Extent extent, uint3
   }
   // Positions are in world space, so the camera needs a pose.
   if (!is_module && (random.one_in(2) || first.find("position"))) first.camera->pose = any_pose(random);
-  const std::vector<Settings> choices = variants(technique, drawn.frame);
-  const bool is_choice = random.one_in(extent == Extent::quick ? 24 : 3);
-  if (is_choice) drawn.settings = random.pick(choices);
-  const Plan plan = plan_for(technique, drawn.frame, drawn.settings);
-  drawn.settings = drawn.settings + any_floats(plan, random);
+  const std::vector<RunOptions> ways = {{.math = Math::fast, .lanes = usual_lanes(device).back()},
+                                        {.math = Math::precise, .lanes = 1}};
+  if (extent == Extent::quick)
+    draw_quick_settings(drawn, technique, ways, seed, random);
+  else
+    draw_settings(drawn, technique, ways, random);
   for (size_t i = 1; i < drawn.frame.views.size() && !is_module; ++i)
     drawn.frame.views[i].camera = beside(*drawn.frame.views[0].camera, random);
   if (random.one_in(2) && !is_module) {
@@ -164,10 +209,7 @@ Draw draw(const Technique& technique, const Device& device, Extent extent, uint3
   }
   spoil(drawn.frame, random);
   normalise(drawn.frame);
-  const bool is_fast = random.one_in(2) || (is_choice && extent == Extent::quick);
-  drawn.options = {.math = is_fast ? Math::fast : Math::precise,
-                   .lanes = is_fast ? usual_lanes(device).back() : 1,
-                   .seed = random.between(0, 999)};
+  drawn.options.seed = random.between(0, 999);
   return drawn;
 }
 

@@ -18,7 +18,7 @@ struct Draw {
 
 /// The frame with this number: any size, camera and planes that the technique may get, with values from a room's to any that a
 /// file may hold, and settings from their whole range. Parameters that are loop counts are the cheapest preset's, and choices
-/// change one at a time, since each combination is compiled separately; in a quick run, seldom.
+/// change one at a time, since each combination is compiled separately; a quick run knows two besides.
 Draw draw(const Technique& technique, const Device& device, Extent extent, uint32_t seed, uint32_t number);
 
 /// Reduces a draw that `fails`: leaves out settings, columns and rows, planes and pixels while it still fails.

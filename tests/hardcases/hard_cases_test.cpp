@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "stress/case.h"
-#include "support/long.h"
 #include "support/techniques.h"
 
 namespace gloam::test {
@@ -30,7 +29,7 @@ void expect_held(const CaseResult& result) {
 constexpr int of_variants[] = {1, 11, 13, 18, 20};
 
 bool is_looked_at(const Technique& technique, const Case& hard_case) {
-  return is_long_run() || technique.variant.of.empty() ||
+  return !is_only_variant(technique) ||
          std::find(std::begin(of_variants), std::end(of_variants), hard_case.number) != std::end(of_variants);
 }
 

@@ -6,6 +6,7 @@
 
 #include "gloam/error.h"
 #include "support/light_field.h"
+#include "support/techniques.h"
 
 namespace gloam::test {
 namespace {
@@ -155,8 +156,11 @@ Runs runs_of(const Technique& technique, const Coverage& coverage) {
     runs.push_back(default_run(technique, shot, with_normals, coverage.every_setting));
   };
   add(perspective(coverage.width, coverage.height), true);
-  add(orthographic(coverage.width, coverage.height, 4), false);
-  for (const bool with_normals : {true, false}) add(perspective(1, 1), with_normals);
+  if (!is_only_variant(technique)) {
+    add(orthographic(coverage.width, coverage.height, 4), false);
+    add(perspective(1, 1), true);
+  }
+  add(perspective(1, 1), false);
   if (coverage.every_setting) append(runs, variant_runs(technique, coverage));
   append(runs, masked_runs(technique, coverage));
   append(runs, reduced_runs(technique, coverage));

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "gloam/error.h"
+#include "support/long.h"
 
 namespace gloam::test {
 namespace {
@@ -59,6 +60,8 @@ void invent_for_extras(const Technique& technique, Frame& frame) {
     if (!frame.views[0].find(plane)) invent_plane(frame, plane);
   }
 }
+
+bool is_only_variant(const Technique& technique) { return !is_long_run() && !technique.variant.of.empty(); }
 
 std::string identifier(const std::string& name) {
   std::string text;

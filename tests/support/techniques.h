@@ -24,6 +24,10 @@ std::vector<std::string> unfiltered_extras(const Technique& technique);
 /// Adds invented planes that a technique reads for extras alone.
 void invent_for_extras(const Technique& technique, Frame& frame);
 
+/// Whether a test looks only at what layers and eyes add to a technique: all else is the text of the technique that it is a variant of.
+/// Never in a long run.
+bool is_only_variant(const Technique& technique);
+
 /// Name for a test: letters, digits and underscores, "hbao_plus".
 std::string identifier(const std::string& name);
 

@@ -43,9 +43,11 @@ class Quotients : public testing::TestWithParam<std::string> {};
 
 TEST_P(Quotients, LeadNoPlaneOutOfItsRange) {
   const Technique& technique = find_technique(GetParam());
+  const bool is_brief = is_only_variant(technique);
   for (const int error : {2, -2}) {
+    if (error < 0 && is_brief) continue;
     const QuotientError device_error(error);
-    for (int resolution = 1; resolution <= (error > 0 ? 2 : 1); ++resolution) {
+    for (int resolution = 1; resolution <= (error > 0 && !is_brief ? 2 : 1); ++resolution) {
       Frame frame = shoot(perspective(24, 16), room());
       try {
         EXPECT_EQ(violation(results_of(technique, frame, {}, resolution)), "") << error << " at 1/" << resolution;
@@ -59,6 +61,7 @@ TEST_P(Quotients, LeadNoPlaneOutOfItsRange) {
 TEST_P(Quotients, LeaveOpenWhatIsOpen) {
   const Technique& technique = find_technique(GetParam());
   for (const int error : {2, -2}) {
+    if (error < 0 && is_only_variant(technique)) continue;
     const QuotientError device_error(error);
     Frame frame = shoot(perspective(24, 16), room());
     const Settings zero = set_lengths(technique, frame, [](double) { return 0.0; });
