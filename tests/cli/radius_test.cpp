@@ -13,6 +13,7 @@
 #include "cli/gloam_process.h"
 #include "gloam/parameters.h"
 #include "gloam/technique.h"
+#include "support/long.h"
 
 namespace gloam::test::radius_test {
 namespace {
@@ -212,8 +213,10 @@ TEST_F(Radius, ARealFrameReadsTheSameErrorInMillimetresAsInMetres) {
   if (!use_apartment()) GTEST_SKIP() << "no captures at " << captures;
   const Arguments stereo = {"stereo-ao", "stereo-gtao", "stereo-bitmask"};
   auto metres = errors_of_run_and_auto("metres", stereo), millimetres = errors_of_run_and_auto("millimetres", stereo);
-  metres.merge(errors_of_bench_and_pick("metres", {"--view", "left"}));
-  millimetres.merge(errors_of_bench_and_pick("millimetres", {"--view", "left"}));
+  if (is_long_run()) {  // the test before this one has both commands on a smaller frame
+    metres.merge(errors_of_bench_and_pick("metres", {"--view", "left"}));
+    millimetres.merge(errors_of_bench_and_pick("millimetres", {"--view", "left"}));
+  }
   for (const auto& [what, error] : metres) RecordProperty("metres " + what, std::to_string(error));
   for (const auto& [what, error] : millimetres) RecordProperty("millimetres " + what, std::to_string(error));
   expect_alike(metres, millimetres);

@@ -25,7 +25,7 @@ kernel void faults(ARGUMENTS) {
   open = choose(background, open, fabs(load(normal_z, here)));
 #elif FAULT == 6   // samples only to the left, and not beyond the border
   const real left = load(depth, here - 1);
-  open = choose((FIRST_X + IOTA > 0) & (left < z), left / z, open);
+  open = choose(to_mask(FIRST_X + IOTA > 0) & (left < z), left / z, open);
 #elif FAULT == 7   // reads where there is no data
   open = ((global const float*)8)[ROW_Y];
 #elif FAULT == 8   // does not end
