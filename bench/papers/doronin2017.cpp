@@ -76,7 +76,7 @@ void measure_models(Study& study, const std::string& table, const std::vector<Sh
     const Series of_base = series_of(*timed[0], passes_named(column.passes));
     for (size_t i = 0; i < shown.size(); ++i) {
       const Series ms = series_of(*timed[i], passes_named(column.passes));
-      PaperTime time{table, shown[i].name, column.name, median(ms), {}, {}, {}, "the first model"};
+      report::PaperFigure time{table, shown[i].name, column.name, median(ms), {}, {}, {}, "the first model"};
       if (is_all) time.paper_ms = shown[i].paper_ms;
       if (i > 0) time.ratio = ratio(ms, of_base);
       if (i > 0 && time.paper_ms) time.paper_ratio = *time.paper_ms / *shown[0].paper_ms;

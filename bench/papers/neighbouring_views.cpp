@@ -66,12 +66,12 @@ double pixels_in_all(const Foreground& surfaces) {
 // --- Times
 
 void state_times_per_view(Study& study, const std::string& table, size_t views) {
-  std::vector<PaperTime> per_view;
-  for (const PaperTime& time : study.result.times) {
+  std::vector<report::PaperFigure> per_view;
+  for (const report::PaperFigure& time : study.result.times) {
     if (time.table != table) continue;
     per_view.push_back(time);
     per_view.back().column = "per view";
-    per_view.back().ms /= double(views);
+    *per_view.back().ms /= double(views);
   }
   std::move(per_view.begin(), per_view.end(), std::back_inserter(study.result.times));
 }

@@ -33,8 +33,8 @@ struct Grid {
 const std::map<std::string, int> digits_of_units = {{inconsistency_unit, 1}, {"pixels of 100 000", 1}, {"dB", 2},
                                                     {"triangles", 0},        {"milliseconds", 0},      {"ratio", 2}};
 
-std::string text_of(const PaperTime& t) {
-  std::string text = fmt::format("{:.{}f} ms", t.ms, t.ms < 10 ? 2 : 1), paper;
+std::string text_of(const report::PaperFigure& t) {
+  std::string text = fmt::format("{:.{}f} ms", *t.ms, *t.ms < 10 ? 2 : 1), paper;
   if (t.ratio) text += fmt::format(", {:.2f}", *t.ratio);
   if (t.paper_ms) paper += fmt::format("{:.2f} ms", *t.paper_ms);
   if (t.paper_ratio) paper += fmt::format(", {:.2f}", *t.paper_ratio);
@@ -93,7 +93,7 @@ std::string page_of(const Paper& paper, const PaperResult& result, const PaperOp
                                  cpu_model(), device.name, options.width, options.height, options.rounds);
   for (const std::string& note : result.notes) text += fmt::format("\n- {}", note);
   text += "\n";
-  add_tables<PaperTime>(text, result.times, &PaperTime::table, [](const PaperTime& t) {
+  add_tables<report::PaperFigure>(text, result.times, &report::PaperFigure::table, [](const report::PaperFigure& t) {
     return fmt::format("Milliseconds, and the ratio to {}; in brackets the paper's own.\n", t.base);
   });
   add_tables<PaperFact>(text, result.facts, &PaperFact::figure,

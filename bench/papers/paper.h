@@ -8,18 +8,9 @@
 #include <vector>
 
 #include "gloam/device.h"
+#include "results/measurements.h"
 
 namespace gloam::bench {
-
-/// A time in a table.
-struct PaperTime {
-  std::string table, row, column;
-  double ms = 0;                      ///< median of the rounds
-  std::optional<double> ratio;        ///< to `base`, median of the rounds' ratios; none for the base itself
-  std::optional<double> paper_ms;     ///< the paper's own, on its device
-  std::optional<double> paper_ratio;  ///< ratio of the paper's own figures
-  std::string base;                   ///< the row that the ratio is to
-};
 
 /// Unit of a difference between two eyes, a mean over pixels (gloam/stereo_consistency.h).
 inline constexpr const char* inconsistency_unit = "mean inconsistency times 100 000";
@@ -37,7 +28,7 @@ struct PaperPicture {
 
 /// The result of a reproduction.
 struct PaperResult {
-  std::vector<PaperTime> times;
+  std::vector<report::PaperFigure> times;  ///< with the median of the rounds, and the paper's own time on its device
   std::vector<PaperFact> facts;
   std::vector<PaperPicture> pictures;
   std::vector<std::string> notes;  ///< stand-ins, and differences from the paper

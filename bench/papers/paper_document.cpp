@@ -5,10 +5,7 @@
 namespace gloam::bench {
 namespace {
 
-Json document_of(const PaperTime& t) {
-  return report::json_of(
-      report::PaperFigure{t.table, t.row, t.column, t.ms, t.ratio, t.paper_ms, t.paper_ratio, t.base});
-}
+Json document_of(const report::PaperFigure& time) { return report::json_of(time); }
 
 Json document_of(const PaperFact& f) {
   return {{"figure", f.figure}, {"row", f.row}, {"column", f.column}, {"value", f.value}, {"unit", f.unit}};

@@ -34,10 +34,11 @@ size_t base_of(const Entry& entry, const std::vector<Entry>& entries) {
 void state_parts(Study& study, const TimedTable& table, const Entry& e, const TimedPlan& timed) {
   for (const Part& part : table.parts) {
     const Series ms = series_of(timed, part.counts);
-    PaperTime time{table.parts_name, e.row, e.column + ", " + part.name, median(ms), {}, {}, {}, table.base};
-    const bool is_new = std::none_of(study.result.times.begin(), study.result.times.end(), [&](const PaperTime& known) {
-      return known.table == time.table && known.row == time.row && known.column == time.column;
-    });
+    report::PaperFigure time{table.parts_name, e.row, e.column + ", " + part.name, median(ms), {}, {}, {}, table.base};
+    const bool is_new =
+        std::none_of(study.result.times.begin(), study.result.times.end(), [&](const report::PaperFigure& known) {
+          return known.table == time.table && known.row == time.row && known.column == time.column;
+        });
     if (!ms.empty() && is_new) study.result.times.push_back(std::move(time));
   }
 }
@@ -79,7 +80,7 @@ void measure(Study& study, const TimedTable& table, const std::vector<Entry>& en
     const Entry& e = entries[i];
     const size_t base = base_of(e, entries);
     const Series ms = series_of(*timed[i], e.counts, e.view);
-    PaperTime time{table.name, e.row, e.column, median(ms), {}, e.paper, {}, table.base};
+    report::PaperFigure time{table.name, e.row, e.column, median(ms), {}, e.paper, {}, table.base};
     if (i != base) {
       time.ratio = ratio(ms, series_of(*timed[base], entries[base].counts, entries[base].view));
       if (e.paper && entries[base].paper) time.paper_ratio = *e.paper / *entries[base].paper;

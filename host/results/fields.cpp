@@ -333,8 +333,10 @@ std::string table_of(const char* title) {
       fmt::format("### Fields of {}\n\n| field | type | unit | null | what |\n|---|---|---|---|---|\n", title);
   for (const Field<Thing>& field : fields(static_cast<const Thing*>(nullptr))) {
     const char* null = field.rules & left_out ? "may be missing" : field.may_be_null ? "yes" : "";
-    text += fmt::format("| `{}` | {} | {} | {} | {}{} |\n", field.key, field.type, field.unit, null, field.meaning,
-                        field.rules & of_frames && !std::is_same_v<Thing, Measurements> ? "; of frames" : "");
+    std::string meaning = field.meaning;
+    if (field.rules & of_frames && !std::is_same_v<Thing, Measurements>)
+      meaning += meaning.empty() ? "of frames" : "; of frames";
+    text += fmt::format("| `{}` | {} | {} | {} | {} |\n", field.key, field.type, field.unit, null, meaning);
   }
   return text + "\n";
 }
