@@ -14,6 +14,12 @@ ROWS = ("results", "converged", "scales", "planes", "cases", "scenes")
 OF_ERROR = ("rmse_to_truth", "bias", "ssim", "flip", "rmse", "mean_change", "mae", "least", "truth_noise", "radius", "radius_pixels")
 
 
+def read(path):
+    """A document by its file, or by the folder whose bench.json it is."""
+    path = pathlib.Path(path)
+    return json.loads((path / "bench.json" if path.is_dir() else path).read_text())
+
+
 def key_of(row):
     """What tells a row from others. Documents that are older than other effects do not say that theirs is "ao"."""
     return tuple(str(row[k]) for k in KEYS if row.get(k) not in (None, "", "ao") and not isinstance(row[k], (list, dict)))
@@ -42,8 +48,8 @@ def rows_of(document):
 
 def pairs(kept, made):
     """Of each figure that the kept document has: where it stands, the number, the one made again, its interval."""
-    new = dict(rows_of(json.loads(pathlib.Path(made).read_text())))
-    for key, row in rows_of(json.loads(pathlib.Path(kept).read_text())):
+    new = dict(rows_of(read(made)))
+    for key, row in rows_of(read(kept)):
         if key not in new:
             raise ValueError(f"{kept}: {', '.join(key)} was not made again")
         again = {name: value for name, value, _ in figures_of(new[key])}

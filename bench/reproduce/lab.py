@@ -10,6 +10,8 @@ import subprocess
 import sys
 import time
 
+import documents
+
 OUT = object()  # stands for the output's path among the arguments of `made`
 
 
@@ -107,7 +109,7 @@ class Lab:
 
     def paper(self, name, *arguments):
         """Figures of `gloam bench --paper`: (figure, row, column) to value, and times: (table, row, column) to the row."""
-        document = json.loads((self.bench(name, "--paper", name, *arguments) / "bench.json").read_text())
+        document = documents.read(self.bench(name, "--paper", name, *arguments))
         return ({(f["figure"], f["row"], f["column"]): f["value"] for f in document["facts"]},
                 {(t["table"], t["row"], t["column"]): t for t in document["paper"]})
 

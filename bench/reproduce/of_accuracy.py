@@ -14,7 +14,7 @@ OF_LIGHT = ("docs/accuracy-of-light.md", ())
 def together(lab, name, scenes, *flags):
     """One document of a run for each scene, so that an interrupted one goes on with the next."""
     folders = [lab.bench(f"{name}-{scene}", "--scenes", scene, *flags) for scene in scenes]
-    document = documents.merged([json.loads((folder / "bench.json").read_text()) for folder in folders])
+    document = documents.merged([documents.read(folder) for folder in folders])
     path = lab.folder_for("documents") / f"{name}.json"
     for folder in folders:
         if (folder / "images").is_dir():

@@ -1,6 +1,5 @@
 """docs/benchmarking.md"""
-import json
-
+import documents
 from catalogue import record, table
 from intervals import ERROR, RATIO, SENSITIVE
 
@@ -13,7 +12,7 @@ ROWS = (("gtao", "low", False), ("gtao", "low", True), ("gtao", "medium", False)
 @table(PAGE, "A sequence", minutes=1, within=lambda row, column: (RATIO, ERROR, SENSITIVE)[column])
 def sequence(lab):
     folder = lab.bench("walk", "--sequence", "gallery:walk", "--size", "320x180", "--rays", 128, "--techniques", "hbao+,gtao,bitmask,evidence")
-    rows = json.loads((folder / "bench.json").read_text())["sequence"]["rows"]
+    rows = documents.read(folder)["sequence"]["rows"]
     found = {(r["technique"], r["preset"], r["temporal"]): r for r in rows}
     return [[found[row][name] for name in ("ratio_to_hbao_plus", "rmse", "flicker")] for row in ROWS]
 

@@ -1,7 +1,7 @@
 """kernels/evidence/README.md"""
-import json
 import math
 
+import documents
 from catalogue import picture, table
 from intervals import ERROR, RATIO, SENSITIVE
 from recipes import SCENES, capture, environment_errors, mean_of, rows_printed
@@ -68,7 +68,7 @@ def real_frames(lab):
 def against_time(lab):
     folder = lab.bench("evidence", "--scenes", "gallery", "--size", "1920x1080", "--techniques", "hbao+,gtao,bitmask,evidence", "--variants", "none",
                        "--ladder", "none", "--no-growth", "--no-checks", "--no-images")
-    found = {(r["technique"], r["preset"]): r for r in json.loads((folder / "bench.json").read_text())["results"]}
+    found = {(r["technique"], r["preset"]): r for r in documents.read(folder)["results"]}
     names, presets = ("ratio_to_hbao_plus", "rmse_to_truth"), ("low", "medium", "high", "ultra")
     return [[tuple(found[technique, preset][name] for name in names) for preset in presets]
             for technique in ("gtao", "bitmask", "evidence")]
