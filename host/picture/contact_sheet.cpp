@@ -119,8 +119,8 @@ void check(const Frame& frame, const ContactSheet& options, const std::string& p
     for (const auto& [name, plane] : view.planes) {
       for (const Channel& channel : plane.channels)
         if (!(channel.layout() == Layout(frame.width(), frame.height())))
-          throw Error("{}: '{}' is {}x{} and the frame {}x{}: no picture of it", path, name, channel.layout().width,
-                      channel.layout().height, frame.width(), frame.height());
+          throw Error("{}: '{}' is {}x{} and the frame {}x{}; only planes of the frame's size are drawn", path, name,
+                      channel.layout().width, channel.layout().height, frame.width(), frame.height());
       if (plane.channels.empty()) throw Error("{}: '{}' has no component to draw", path, name);
       ++planes;
     }

@@ -23,7 +23,10 @@ constexpr std::array<float, 5> ranges{0.05f, 0.1f, 0.2f, 0.5f, 1.0f};
 Differences differences(const Plane& test, const Plane& truth, const Mask& foreground) {
   const bool same = !test.channels.empty() && test.channels.size() == truth.channels.size() &&
                     test.channels[0].layout() == truth.channels[0].layout();
-  if (!same) throw Error("'{}': test and truth have different sizes or components: no picture of it", test.name);
+  if (!same)
+    throw Error(
+        "'{}': test and truth have different sizes or components; a difference is drawn where both are the same",
+        test.name);
   const Layout& layout = test.channels[0].layout();
   if (layout.width < 1 || layout.height < 1 || foreground.size() != size_t(layout.width) * size_t(layout.height))
     throw Error("'{}': the mask does not have the {}x{} pixels of the images", test.name, layout.width, layout.height);

@@ -124,12 +124,12 @@ bool has_values(const SequenceChart& chart) {
 }  // namespace
 
 void write_sequence_plot(const std::filesystem::path& path, const SequencePlot& plot) {
-  if (plot.frames.empty()) throw Error("{}: a plot of no frames", path.string());
+  if (plot.frames.empty()) throw Error("{}: there is no frame to plot", path.string());
   for (const SequenceChart& chart : plot.charts) {
     for (const SequenceCurve& curve : chart.curves) {
       if (curve.values.size() != plot.frames.size())
-        throw Error("{}: '{}' has {} values for {} frames", path.string(), curve.name, curve.values.size(),
-                    plot.frames.size());
+        throw Error("{}: '{}' has {} values for {} frames; a curve has one for each", path.string(), curve.name,
+                    curve.values.size(), plot.frames.size());
     }
   }
   std::vector<const SequenceChart*> charts;  // an empty one would look as if its values were 0

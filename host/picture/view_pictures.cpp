@@ -33,11 +33,11 @@ void check(const Frame& frame, const std::string& name, const std::string& path)
     if (!plane || plane->channels.empty()) throw Error("{}: view '{}' has no '{}' to draw", path, view.name, name);
     for (const Channel& channel : plane->channels)
       if (!(channel.layout() == layout))
-        throw Error("{}: '{}' is {}x{} and the frame {}x{}: no picture of it", path, name, channel.layout().width,
-                    channel.layout().height, frame.width(), frame.height());
+        throw Error("{}: '{}' is {}x{} and the frame {}x{}; only planes of the frame's size are drawn", path, name,
+                    channel.layout().width, channel.layout().height, frame.width(), frame.height());
     if (plane->channels.size() != frame.views[0].find(name)->channels.size())
-      throw Error("{}: '{}' has {} in view '{}' and {} in view '{}': no picture of both", path, name,
-                  counted(frame.views[0].find(name)->channels.size(), "component"), frame.views[0].name,
+      throw Error("{}: '{}' has {} in view '{}' and {} in view '{}'; views are drawn together where they have the same",
+                  path, name, counted(frame.views[0].find(name)->channels.size(), "component"), frame.views[0].name,
                   counted(plane->channels.size(), "component"), view.name);
   }
 }

@@ -70,7 +70,8 @@ void add_pixels(Sha256& sum, Imf::InputPart& part) {
   size_t bytes = 0;
   for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
     if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1)
-      throw Error("its channel '{}' has not a value for each pixel, as those of sets have", channel.name());
+      throw Error("the channel '{}' lacks values for some pixels; every channel of a set has a value for each pixel",
+                  channel.name());
     bytes += width * bytes_of(channel.channel().type);
   }
   constexpr int rows_at_once = 16;  // of a chunk of the ZIP compression

@@ -43,7 +43,7 @@ std::vector<CaptureView> ItemScene::views(int frame) {
   const LightFieldDisplay display = display_from_text(display_text(item_.display), item_.display);
   const FittingSize size = fitting_size(display);
   const auto fitted = fitted_to(display, *tracer_, camera_for(camera, size.width, size.height));
-  if (!fitted) throw Error("{}: its camera shows nothing that the display could", item_.name);
+  if (!fitted) throw Error("{}: the camera shows no surface that the display could show", item_.name);
   return module_views(*fitted, item_.width, item_.height);
 }
 

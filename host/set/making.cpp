@@ -13,6 +13,7 @@
 #include "base/files.h"
 #include "base/lists.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "set/item_making.h"
 
 namespace gloam::sets {
@@ -21,7 +22,7 @@ namespace {
 void make_folder(const std::filesystem::path& folder) {
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
-  if (failed) throw Error("-o {}: cannot be made ({})", folder.string(), failed.message());
+  if (failed) throw Error("{}: cannot be made ({})", folder.string(), failed.message());
 }
 
 /// What an earlier run made; empty if there was none.
@@ -32,7 +33,7 @@ Manifest earlier(const Recipe& recipe, const MakeOptions& options) {
   Manifest manifest = read_manifest(options.folder);
   const bool is_same = manifest.set == recipe.name && manifest.seed == options.seed;
   if (!is_same)
-    throw Error("{}: holds {}{}; give another folder by -o, or remove it", options.folder.string(), manifest.set,
+    throw Error("{}: holds {}{}; name another folder, or remove this one", options.folder.string(), manifest.set,
                 manifest.seed ? fmt::format(" of seed {}", *manifest.seed) : "");
   return manifest;
 }
@@ -106,8 +107,8 @@ class ItemLock {
   ItemLock(const Recipe& recipe, const ItemRecipe& item, const std::filesystem::path& folder)
       : lock_(lock_of(folder), byte_of(recipe, item)) {
     if (lock_.is_held_by_another())
-      throw Error("-o {}: another gloam makes {} there; wait for its end, or name other items by --only",
-                  folder.string(), item.name);
+      throw Error("{}: another gloam makes {} there; wait for its end, or name other items by {}", folder.string(),
+                  item.name, option("only"));
   }
 
  private:
@@ -125,8 +126,8 @@ void add_to_manifest(const Recipe& recipe, const std::vector<SetItem>& made, con
   constexpr double patience = 60;  ///< seconds; writing takes a fraction of one
   const FileLock lock(lock_of(options.folder), {{0, 0}}, patience);
   if (lock.is_held_by_another())
-    throw Error("-o {}: another gloam has not come to an end with its manifest for {} s", options.folder.string(),
-                patience);
+    throw Error("{}: another gloam has held the manifest for {} s; end that process, and run this one again",
+                options.folder.string(), patience);
   manifest.items = merged(recipe, made, earlier(recipe, options).items);
   manifest.hash = hash_of(manifest.items);
   write_manifest(options.folder, manifest);

@@ -72,10 +72,10 @@ SetItem item_of(const JsonObject& fields) {
   const size_t frames = std::max<size_t>(item.frames.size(), 1);
   item.files = files_of(fields, frames);
   for (const JsonObject& one : fields.objects("truths")) {
-      item.truths.push_back(truth_of(one, frames));
-      for (size_t i = 0; i + 1 < item.truths.size(); ++i) {
-        if (item.truths[i].effect == item.truths.back().effect) one.refuse("effect", "it has one truth already");
-      }
+    item.truths.push_back(truth_of(one, frames));
+    for (size_t i = 0; i + 1 < item.truths.size(); ++i) {
+      if (item.truths[i].effect == item.truths.back().effect) one.refuse("effect", "it has one truth already");
+    }
   }
   return item;
 }

@@ -6,6 +6,7 @@
 #include "base/json_text.h"
 #include "base/lists.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "scene/fingerprint.h"
 #include "scene/reference_kinds.h"
 #include "set/hard_frames.h"
@@ -151,7 +152,7 @@ std::vector<const ItemRecipe*> chosen_items(const Recipe& recipe, const std::vec
   for (const ItemRecipe& item : recipe.items) known.push_back(item.name);
   for (const std::string& name : names) {
     if (!contains(known, name))
-      throw UsageError("--only {}: {} has no such item{} (gloam set list {})", name, recipe.name,
+      throw UsageError("{}: {} has no such item{} (gloam set list {})", option("only", name), recipe.name,
                        suggestion(name, known), recipe.name);
   }
   std::vector<const ItemRecipe*> chosen;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "gloam/radius.h"
 #include "gloam/scene/capture.h"
 #include "scene/random_camera.h"
@@ -72,7 +73,8 @@ ItemRecipe drawn_item(const ItemRecipe& from, Random random) {
   for (int trial = 0; trial < most_trials; ++trial) {
     if (place(item, tracer, random)) return item;
   }
-  throw Error("{}: none of {} random cameras sees enough of it; another --seed may", item.scene, most_trials);
+  throw Error("{}: none of {} random cameras sees enough of it; another {} may", item.scene, most_trials,
+              option("seed"));
 }
 
 }  // namespace

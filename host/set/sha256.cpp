@@ -16,7 +16,7 @@ struct Sha256::State {
 namespace {
 
 void require(int succeeded) {
-  if (!succeeded) throw Error("SHA-256 is not to be had from OpenSSL; its configuration may leave it out");
+  if (!succeeded) throw Error("OpenSSL offers no SHA-256; its configuration may leave SHA-256 out");
 }
 
 }  // namespace

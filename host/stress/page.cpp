@@ -306,7 +306,7 @@ std::string stability_page(const std::vector<Json>& documents) {
     while (page.ends_with("\n\n")) page.pop_back();
     return page;
   } catch (const Json::exception& error) {
-    throw Error("results of gloam stress that cannot be read ({}); gloam stress all --json FILE writes some",
+    throw Error("the results of gloam stress cannot be read ({}); gloam stress all --json FILE writes some",
                 error.what());
   }
 }

@@ -218,7 +218,8 @@ TEST_F(Sets, AreDrawnFromASeed) {
   EXPECT_EQ(manifest.items[0].truths[0].rays, 128) << "twice those of the public part";
   const Result mixed = gloam({"set", "make", "small", "-o", in("one")});
   EXPECT_EQ(mixed.status, 1);
-  EXPECT_NE(mixed.err.find("holds small of seed 7; give another folder by -o"), std::string::npos) << mixed.err;
+  EXPECT_NE(mixed.err.find("holds small of seed 7; name another folder, or remove this one"), std::string::npos)
+      << mixed.err;
 }
 
 TEST_F(Sets, RefuseWhatCannotBe) {
