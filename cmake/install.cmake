@@ -28,16 +28,18 @@ install(TARGETS gloam_frames gloam_pictures gloam_all EXPORT gloamTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 install(TARGETS gloam_scene EXPORT gloamSceneTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+install(TARGETS gloam_measure EXPORT gloamMeasureTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 file(GLOB public_headers LIST_DIRECTORIES true CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/host/*/include/gloam)
-list(FILTER public_headers EXCLUDE REGEX "/choose/")  # gloam::measure is not installed
 install(DIRECTORY ${public_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   COMPONENT development FILES_MATCHING PATTERN "*.h")
 
-# --- find_package(gloam CONFIG [COMPONENTS core scene])
+# --- find_package(gloam CONFIG [COMPONENTS core scene measure])
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/gloam)
 install(EXPORT gloamCoreTargets NAMESPACE gloam:: DESTINATION ${config_folder} COMPONENT development)
 install(EXPORT gloamTargets NAMESPACE gloam:: DESTINATION ${config_folder} COMPONENT development)
 install(EXPORT gloamSceneTargets NAMESPACE gloam:: DESTINATION ${config_folder} COMPONENT development)
+install(EXPORT gloamMeasureTargets NAMESPACE gloam:: DESTINATION ${config_folder} COMPONENT development)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/gloamConfig.cmake.in
   ${PROJECT_BINARY_DIR}/generated/gloamConfig.cmake INSTALL_DESTINATION ${config_folder})
 # Before 1.0 a minor version may change the interface.
@@ -45,14 +47,14 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/generated/gloamConfigVers
 install(FILES ${PROJECT_BINARY_DIR}/generated/gloamConfig.cmake ${PROJECT_BINARY_DIR}/generated/gloamConfigVersion.cmake
   DESTINATION ${config_folder} COMPONENT development)
 
-# --- pkg-config --static gloam-core, gloam, gloam-scene. The prefix is where the file lies, wherever it is installed.
+# --- pkg-config --static gloam-core, gloam, gloam-scene, gloam-measure. The prefix is where the file lies, wherever it is installed.
 set(pkgconfig_folder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX BASE_DIRECTORY ${CMAKE_INSTALL_PREFIX}/${pkgconfig_folder}
   OUTPUT_VARIABLE pkgconfig_to_prefix)
 if(GLOAM_OPENMP)
   set(pkgconfig_openmp "${OpenMP_CXX_FLAGS}")
 endif()
-foreach(name gloam-core gloam gloam-scene)
+foreach(name gloam-core gloam gloam-scene gloam-measure)
   configure_file(${PROJECT_SOURCE_DIR}/cmake/${name}.pc.in ${PROJECT_BINARY_DIR}/generated/${name}.pc @ONLY)
   install(FILES ${PROJECT_BINARY_DIR}/generated/${name}.pc DESTINATION ${pkgconfig_folder} COMPONENT development)
 endforeach()
