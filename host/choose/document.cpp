@@ -1,5 +1,7 @@
 #include "choose/document.h"
 
+#include "gloam/option.h"
+
 namespace gloam::bench {
 namespace {
 
@@ -40,10 +42,9 @@ nlohmann::ordered_json document_of(const Picked& picked, PickBy by, const Device
 
 std::string stand_in_warning(const Picked& picked) {
   return fmt::format(
-      "NO TRUTH: errors are to {}: what errs as that does looks nearer to the truth than it is; --truth REF.exr takes "
-      "a ray-traced image "
-      "(gloam reference, or a renderer's own)",
-      picked.truth);
+      "NO TRUTH: errors are to {}: what errs as that does looks nearer to the truth than it is; {} takes a ray-traced "
+      "image (gloam reference, or a renderer's own)",
+      picked.truth, option("truth", "REF.exr"));
 }
 
 }  // namespace gloam::bench

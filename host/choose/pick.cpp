@@ -238,12 +238,13 @@ std::vector<const Technique*> techniques_to_pick(const std::vector<std::string>&
     const Technique& technique = find_technique(name);
     if (all && !fits(technique, variant)) continue;
     if (const std::string why = why_not_measured(technique, {effect}); !why.empty())
-      throw UsageError("--techniques {}: {}; there are {}", name, why, enumerate(techniques_making({effect})));
-    if (const std::string why = needs_naming(technique); all && !why.empty())
+      throw UsageError("{}: {}; there are {}", option("techniques", name), why, enumerate(techniques_making({effect})));
+    if (const std::string why = needs_naming(technique, variant); all && !why.empty())
       left_out.push_back({name, "", "", why});
     else if (std::find(techniques.begin(), techniques.end(), &technique) == techniques.end())
       techniques.push_back(&technique);
   }
+  check_any_fits(techniques, variant, {effect});
   return techniques;
 }
 

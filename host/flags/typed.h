@@ -63,25 +63,48 @@ CLI::Validator accepted_by(Parse parse, const std::string& flag) {
   return CLI::Validator([parse, flag](std::string& text) { return parse(text, flag), std::string(); }, "");
 }
 
+/// While it lives, flags that are added are listed under a heading of `--help`.
+class Heading {
+ public:
+  Heading(CLI::App& app, const std::string& name) : app_(app), before_(app.option_defaults()->get_group()) {
+    app.option_defaults()->group(name);
+  }
+  ~Heading() { app_.option_defaults()->group(before_); }
+  Heading(const Heading&) = delete;
+
+ private:
+  CLI::App& app_;
+  const std::string before_;
+};
+
 /// A flag whose value is the result of `parse(text, flag)`, in a variable or an optional. CLI11's own conversion reads 010 as 8,
-/// rounds decimals twice, and knows neither sizes nor units.
+/// rounds decimals twice, and knows neither sizes nor units. `type`: what stands for the value in `--help`.
 template <typename Target, typename Parse>
-CLI::Option* add_parsed(CLI::App& app, const std::string& flag, Target& target, Parse parse, const std::string& help) {
+CLI::Option* add_parsed(CLI::App& app, const std::string& flag, Target& target, Parse parse, const std::string& help,
+                        const std::string& type = {}) {
   const CLI::callback_t take = [&target, parse, flag](const CLI::results_t& texts) {
     target = parse(texts.front(), flag);
     return true;
   };
-  return app.add_option(flag, take, help);
+  return app.add_option(flag, take, help)->type_name(type);
 }
 
 /// A flag for a number within a range, in an `int`, a `double` or an optional one.
 template <typename Target, typename Number = typename ValueIn<Target>::type>
 CLI::Option* add_number(CLI::App& app, const std::string& flag, Target& target, const Range<Number>& range,
-                        const std::string& help) {
+                        const std::string& help,
+                        const std::string& type = std::is_integral_v<Number> ? "INT" : "FLOAT") {
   const auto parse = [range](const std::string& text, const std::string& name) {
     return parse_number(text, name, range);
   };
-  return add_parsed(app, flag, target, parse, help)->type_name(std::is_integral_v<Number> ? "INT" : "FLOAT");
+  return add_parsed(app, flag, target, parse, help, type);
+}
+
+/// A flag or an argument for a text, or for several. `type`: what stands for the value in `--help`.
+template <typename Target>
+CLI::Option* add_text(CLI::App& app, const std::string& flag, Target& target, const std::string& type,
+                      const std::string& help) {
+  return app.add_option(flag, target, help)->type_name(type);
 }
 
 /// "full|half|quarter": the type of a flag that takes one of a few words. `--help` shows it, and shells complete from it.

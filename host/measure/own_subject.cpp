@@ -6,10 +6,12 @@
 #include "exr/holdings.h"
 #include "gloam/error.h"
 #include "gloam/metrics.h"
+#include "gloam/option.h"
 #include "gloam/planes.h"
 #include "measure/effects.h"
 #include "measure/plans.h"
 #include "sequence/plan_files.h"
+#include "technique/variant_words.h"
 
 namespace gloam::bench {
 
@@ -29,7 +31,22 @@ std::string why_not_measured(const Technique& technique, const std::vector<std::
 }
 
 std::string needs_naming(const Technique& technique) {
-  return technique.views > 1 ? "needs frames of two views: measured where --techniques names it" : "";
+  if (technique.views == 1) return "";
+  return fmt::format("needs frames of two views: measured where {} names it", option("techniques"));
+}
+
+std::string needs_naming(const Technique& technique, const VariantChoice& choice) {
+  return choice.both_eyes == true ? "" : needs_naming(technique);
+}
+
+void check_any_fits(const std::vector<const Technique*>& left, const VariantChoice& choice,
+                    const std::vector<std::string>& effects) {
+  std::vector<std::string> chosen;
+  if (choice.layers) chosen.push_back(option("layers", word_for(*choice.layers, layers_words)));
+  if (choice.both_eyes) chosen.push_back(option("eyes", word_for(*choice.both_eyes, eyes_words)));
+  if (left.empty() && !chosen.empty())
+    throw UsageError("{}: no technique that makes {} has this variant; there are {}", fmt::join(chosen, " "),
+                     enumerate(effects), enumerate(techniques_making(effects)));
 }
 
 namespace {
@@ -107,9 +124,9 @@ unsigned long long bytes_to_measure(const FrameFile& file, const std::string& ef
 bool is_of_scene(const Subject& subject, const TellNotes& tell) {
   if (effect_of(subject.effect).is_of_scene) return true;
   tell(
-      {fmt::format("{}: the truth of {} needs more than the scene; gloam reference {} traces it, and --frame with "
-                   "--truth measures it",
-                   subject.name, subject.effect, subject.effect)});
+      {fmt::format("{}: the truth of {} needs more than the scene; gloam reference {} traces it, and {} with {} "
+                   "measures it",
+                   subject.name, subject.effect, subject.effect, option("frame"), option("truth"))});
   return false;
 }
 
@@ -167,8 +184,8 @@ Subject own_subject(const OwnFrame& own, const std::string& effect, const std::v
     subject.truth = &*subject.given;
     const std::optional<double> traced = subject.given->radius;
     if (is_known && traced && std::abs(*traced - subject.radius.value) > 1e-6 * *traced)
-      throw UsageError("--radius {:g}: the truth was made with {:g}; leave it out, or trace another truth",
-                       subject.radius.value, *traced);
+      throw UsageError("{}: the truth was made with {:g}; leave it out, or trace another truth",
+                       option("radius", fmt::format("{:g}", subject.radius.value)), *traced);
     if (!is_known && traced) {
       subject.radius = {*traced, RadiusSource::truth};
       is_known = true;
@@ -189,8 +206,8 @@ Subject own_subject(const OwnFrame& own, const std::string& effect, const std::v
     tell(notes);
   }
   if (!std::isfinite(subject.radius.value) || !(subject.radius.value > 0))
-    throw Error("{}: was made with radius {:g}; --radius gives one that can be measured", enumerate(own.truths),
-                subject.radius.value);
+    throw Error("{}: was made with radius {:g}; {} gives one that can be measured", enumerate(own.truths),
+                subject.radius.value, option("radius"));
   return subject;
 }
 

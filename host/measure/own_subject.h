@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gloam/exr.h"
+#include "gloam/variants.h"
 #include "measure/measurement.h"
 #include "scene/names.h"
 
@@ -18,6 +19,12 @@ std::string why_not_measured(const Technique& technique, const std::vector<std::
 
 /// Why a technique is left out unless the user names it; empty for most.
 std::string needs_naming(const Technique& technique);
+/// The same where variants are chosen: that of two eyes names techniques of two views.
+std::string needs_naming(const Technique& technique, const VariantChoice& choice);
+
+/// Throws UsageError where the choice of variants has left no technique of those that make the effects.
+void check_any_fits(const std::vector<const Technique*>& left, const VariantChoice& choice,
+                    const std::vector<std::string>& effects);
 
 /// A built-in scene seen by its first camera, with the truth of an effect. `techniques`: of all effects that are measured on the scene.
 Subject builtin_subject(const SceneRecipe& recipe, const std::string& effect,

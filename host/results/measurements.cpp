@@ -72,7 +72,7 @@ void prepare(Measurements& m) {
   for (const LeftOut& each : m.left_out) {
     if (each.what != "everything" && each.what != "rounds") continue;
     m.skipped.push_back({each.technique, each.preset + (each.variant.empty() ? "" : ", " + each.variant), each.scene,
-                         "left out to end in time; --all measures it"});
+                         "left out to end in time; gloam bench --all measures it"});
   }
   if (m.sequence && m.sequence->rows.empty()) m.sequence.reset();
 }

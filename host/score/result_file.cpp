@@ -77,7 +77,7 @@ void check_same(const Json& before, const Json& now, const std::string& file) {
   };
   for (const char* key : {"size", "radius"}) {
     if (differs(key))
-      throw Error("{}: '{}' there has the {} {}, and here {}; write these results to another folder (-o)", file,
+      throw Error("{}: has '{}' with the {} {}, and the new results have {}; write them to another folder", file,
                   text_in(now, "name"), key, shown(before[key]), shown(now[key]));
   }
 }
@@ -96,18 +96,10 @@ void fill_in(Json& scene, const Json& other) {
   }
 }
 
-std::optional<SetId> set_in(const Json& document) {
-  const auto set = document.find("set");
-  if (set == document.end() || !set->is_object()) return {};
-  SetId id{text_in(*set, "name"), text_in(*set, "part"), text_in(*set, "hash"), {}};
-  if (set->contains("seed") && (*set)["seed"].is_number_integer()) id.seed = (*set)["seed"].get<long long>();
-  return id;
-}
-
 /// Nothing was computed here, so there is no device.
-Json new_document(const std::optional<SetId>& set) {
+Json new_document(const report::SetFacts& set) {
   Json document = report::document_of(bench::results_on(DeviceInfo{}));
-  document["set"] = set ? document_of(*set) : Json(nullptr);
+  document["set"] = set.empty() ? Json(nullptr) : report::json_of(set);
   return document;
 }
 
@@ -127,13 +119,8 @@ Json milliseconds_of(const std::vector<double>& rounds) {
   return document;
 }
 
-Json document_of(const SetId& set) {
-  return {
-      {"name", set.name}, {"part", set.part}, {"seed", set.seed ? Json(*set.seed) : Json(nullptr)}, {"hash", set.hash}};
-}
-
-std::string in_words(const SetId& set) {
-  const std::string seed = set.seed ? fmt::format(" {}", *set.seed) : "";
+std::string in_words(const report::SetFacts& set) {
+  const std::string seed = set.seed ? fmt::format(" {:.0f}", *set.seed) : "";
   return fmt::format("{} ({}{}, hash {})", set.name, set.part, seed, set.hash.substr(0, 12));
 }
 
@@ -193,12 +180,12 @@ Json scene_of(const Scored& scored) { return report::json_of(scored.scene); }
 
 Results::Results(const std::string& text, std::string name) : name_(std::move(name)) {
   document_ = ordered_json_of_text(text, name_);
-  report::measurements_of(document_, name_);
+  set_ = report::measurements_of(document_, name_).set;
   if (!document_.contains("scenes") || document_["scenes"].is_null()) document_["scenes"] = Json::array();
 }
 
-Results::Results(const std::optional<SetId>& set, std::string name)
-    : document_(new_document(set)), name_(std::move(name)) {}
+Results::Results(const report::SetFacts& set, std::string name)
+    : document_(new_document(set)), name_(std::move(name)), set_(set) {}
 
 size_t Results::rows_of(const std::string& entry) const {
   const Json& rows = document_["results"];
@@ -284,7 +271,7 @@ void Results::put_measured(Json measured) {
   document_ = std::move(measured);
 }
 
-ResultFile::ResultFile(const std::filesystem::path& folder, const std::optional<SetId>& set)
+ResultFile::ResultFile(const std::filesystem::path& folder, const report::SetFacts& set)
     : path_(folder / "bench.json"), set_(set), found_(set, path_.string()) {
   std::error_code unknown;
   is_new_ = !std::filesystem::exists(path_, unknown);
@@ -296,15 +283,15 @@ Results ResultFile::read() const {
   const std::string name = path_.string();
   if (!std::filesystem::exists(path_, unknown)) return Results(set_, name);
   Results results(read_text(path_), name);
-  const std::optional<SetId> before = set_in(results.document_);
-  if (before && !set_)
-    throw Error("{}: is of the set {}, and no --set is given; name another folder (-o)", name, in_words(*before));
-  if (set_ && !before && !results.document_["results"].empty())
-    throw Error("{}: is of no set, and --set is {}; name another folder (-o)", name, in_words(*set_));
-  if (set_ && before && before->hash != set_->hash)
-    throw Error("{}: is of the set {}, and --set is {}: another version; name another folder (-o)", name,
-                in_words(*before), in_words(*set_));
-  if (set_) results.document_["set"] = document_of(*set_);
+  const report::SetFacts& before = results.set_;
+  if (set_.empty() && !before.empty())
+    throw Error("{}: is of the set {}, and these results are of no set; name another folder", name, in_words(before));
+  if (!set_.empty() && before.empty() && !results.document_["results"].empty())
+    throw Error("{}: is of no set, and these results are of {}; name another folder", name, in_words(set_));
+  if (!set_.empty() && !before.empty() && before.hash != set_.hash)
+    throw Error("{}: is of the set {}, and these results are of another version, {}; name another folder", name,
+                in_words(before), in_words(set_));
+  if (!set_.empty()) results.document_["set"] = report::json_of(set_);
   return results;
 }
 
@@ -312,7 +299,7 @@ void ResultFile::update(const std::function<void(Results&)>& change) const {
   constexpr double patience = 120;  ///< seconds; a change takes a fraction of one
   const FileLock lock(lock_of(path_.parent_path()), {{change_byte, change_byte}}, patience);
   if (lock.is_held_by_another())
-    throw Error("{}: another gloam has not come to an end with it for {} s; end that one, and run this again",
+    throw Error("{}: another gloam has held the file for {} s; end that process, and run this one again",
                 path_.string(), patience);
   Results results = read();
   change(results);
@@ -322,8 +309,7 @@ void ResultFile::update(const std::function<void(Results&)>& change) const {
 MeasuringAlone::MeasuringAlone(const std::filesystem::path& folder)
     : lock_(lock_of(folder), {{measuring_byte, measuring_byte}}) {
   if (lock_.is_held_by_another())
-    throw Error("-o {}: another gloam bench measures into it; wait for its end, or name another folder",
-                folder.string());
+    throw Error("{}: another gloam bench measures into it; wait for its end, or name another folder", folder.string());
 }
 
 }  // namespace gloam::score

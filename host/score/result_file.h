@@ -8,19 +8,14 @@
 #include <vector>
 
 #include "base/file_lock.h"
+#include "results/measurements.h"
 #include "score/entry.h"
 #include "score/scoring.h"
 
 namespace gloam::score {
 
-/// Which set results are of.
-struct SetId {
-  std::string name, part, hash;
-  std::optional<long long> seed;
-};
-Json document_of(const SetId& set);
 /// "gloam-1 (public, hash 0123abcd)"
-std::string in_words(const SetId& set);
+std::string in_words(const report::SetFacts& set);
 
 /// How a method's command fared beside gloam's own, as whole processes.
 struct WholeTimes {
@@ -49,8 +44,8 @@ class Results {
  public:
   /// `name`: of the file, for messages. Throws Error for a text that `gloam report` would not read either.
   Results(const std::string& text, std::string name);
-  /// Without a row. `set`: none for frames of the user's own.
-  Results(const std::optional<SetId>& set, std::string name);
+  /// Without a row. `set`: empty for frames of the user's own.
+  Results(const report::SetFacts& set, std::string name);
 
   /// Number of rows of an entry.
   size_t rows_of(const std::string& entry) const;
@@ -76,13 +71,14 @@ class Results {
   friend class ResultFile;
   Json document_;
   std::string name_;
+  report::SetFacts set_;  ///< that the rows are of; empty: none
 };
 
 /// DIR/bench.json, which several commands and processes add to.
 class ResultFile {
  public:
   /// Reads what is there. Throws Error for a file that is no result of gloam, or of another set.
-  ResultFile(const std::filesystem::path& folder, const std::optional<SetId>& set);
+  ResultFile(const std::filesystem::path& folder, const report::SetFacts& set);
 
   std::filesystem::path path() const { return path_; }
   bool is_new() const { return is_new_; }
@@ -97,7 +93,7 @@ class ResultFile {
   Results read() const;
 
   std::filesystem::path path_;
-  std::optional<SetId> set_;
+  report::SetFacts set_;
   bool is_new_ = true;
   Results found_;
 };

@@ -6,6 +6,7 @@
 #include "base/lists.h"
 #include "base/words.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "gloam/planes.h"
 #include "picture/png_values.h"
 
@@ -36,9 +37,8 @@ void fit_components(Plane& plane, const ImageRequest& request, double most) {
         if (std::abs(double(red) - double(other)) <= most || (!std::isfinite(red) && !std::isfinite(other))) continue;
         throw Error(
             "{}: is coloured, {:g} and {:g} at pixel ({}, {}), and {} is one value; store it as grey, or name a "
-            "channel of an "
-            "EXR (--plane {}=R)",
-            request.file.string(), red, other, x, y, request.effect, request.effect);
+            "channel of an EXR ({})",
+            request.file.string(), red, other, x, y, request.effect, channels_option(request.effect, "R"));
       }
     }
   }
@@ -74,8 +74,8 @@ std::string choose_plane(const ImageRequest& request, ReadOptions& options) {
   const auto luminance = std::find_if(names.begin(), names.end(), [](const auto& name) { return name == "Y"; });
   const std::string only = luminance != names.end() ? *luminance : names.size() == 1 ? names.front() : "";
   if (only.empty())
-    throw Error("{}: has no plane '{}', no colours and no single channel; it has {}; --plane {}=CHANNEL names it",
-                request.file.string(), request.effect, enumerate(channels), request.effect);
+    throw Error("{}: has no plane '{}', no colours and no single channel; it has {}; {} names it",
+                request.file.string(), request.effect, enumerate(channels), channels_option(request.effect, "CHANNEL"));
   // a plane of one value, whatever the effect: `fit_components` repeats it
   options.channels["ao"] = channels.size() == 1 ? channels.front() : only;
   return "ao";

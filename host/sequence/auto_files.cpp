@@ -5,6 +5,7 @@
 #include "base/lists.h"
 #include "exr/holdings.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 
 namespace gloam {
 namespace {
@@ -47,9 +48,8 @@ AutoFrame planned_auto(FrameFiles files, const PlanRequest& asked, const AutoPur
 void check_has_depth(const AutoFrame& planned, const std::string& out) {
   if (out.empty() || contains(planned.files.common_planes(), "depth")) return;
   throw Error(
-      "{}: has no depth, so that no effect can be computed and -o {} would be empty; give a frame with depth, or "
-      "--composite alone",
-      planned.files.name(), out);
+      "{}: has no depth, so that no effect can be computed and {} would be empty; give a frame with depth, or {} alone",
+      planned.files.name(), out, option("composite"));
 }
 
 Frame read_and_judge(AutoFrame& planned, const PlanRequest& asked, const AutoPurpose& purpose) {

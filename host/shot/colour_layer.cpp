@@ -6,6 +6,7 @@
 #include "base/lists.h"
 #include "exr/holdings.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 
 namespace gloam {
 namespace {
@@ -13,9 +14,10 @@ namespace {
 void check_colour(const FrameFiles& files) {
   if (contains(files.common_planes(), "color")) return;
   const std::string why = files.why_missing("color");
-  throw Error("--composite: {}; --plane color=LAYER or color=R,G,B names the colour",
+  throw Error("{}: {}; {} or {} names the colour", option("composite"),
               why.empty() ? fmt::format("no channel is known as the frame's colour, and {}", holdings(files))
-                          : fmt::format("in {} {}", files.name(), why));
+                          : fmt::format("in {} {}", files.name(), why),
+              channels_option("color", "LAYER"), channels_option("color", "R,G,B"));
 }
 
 bool is_half(const FrameFiles& files, const std::string& plane) {

@@ -5,6 +5,7 @@
 #include "base/lists.h"
 #include "exr/holdings.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "sequence/plan_files.h"
 #include "shot/memory.h"
 
@@ -62,9 +63,10 @@ std::optional<Radius> settle(PlannedFrame& planned, const Frame& frame, std::vec
 std::vector<std::string> warning_about_history(const Frame& frame, const Frame& result, const std::string& who) {
   if (!knows_where_surfaces_were(frame))
     return {
-        "--temporal: neither a plane 'motion' nor the camera's pose tells where surfaces were in the frame before; "
-        "each "
-        "frame is computed by itself; give the camera of each frame (--camera)"};
+        fmt::format("{}: neither a plane 'motion' nor the camera's pose tells where surfaces were in the frame before, "
+                    "so that each "
+                    "frame is computed by itself; give the camera of each frame ({})",
+                    option("temporal"), option("camera"))};
   if (!goes_on_from_before(result)) return {who + "; accumulation begins anew"};
   return {};
 }

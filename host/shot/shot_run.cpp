@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "base/page_pool.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "shot/history.h"
 
 namespace gloam {
@@ -121,8 +122,8 @@ std::unique_ptr<FrameWork> ShotRun::begin(size_t i) {
   const std::string name = files.name();
   std::unique_ptr<FrameWork> work = step_.begin(turn, std::move(files));
   if (settings_.memory.frame > 0 && work->bytes() > settings_.memory.frame)
-    throw Error("{}: takes {} of memory, and a frame of this shot has {}; --memory gives more", name,
-                memory_in_words(work->bytes()), memory_in_words(settings_.memory.frame));
+    throw Error("{}: takes {} of memory, and a frame of this shot has {}; {} gives more", name,
+                memory_in_words(work->bytes()), memory_in_words(settings_.memory.frame), option("memory"));
   work->turn = turn;
   work->making = std::move(making);
   return work;
@@ -152,7 +153,7 @@ bool ShotRun::attempt(size_t i, double StepTimes::*time, const std::function<boo
     why = error.what();
     lacks_space = is_lack_of_space(error);
   } catch (const std::bad_alloc&) {
-    why = "out of memory; --memory sets how much is used";
+    why = fmt::format("out of memory; {} sets how much is used", option("memory"));
   } catch (const std::exception& error) {
     why = error.what();
   }

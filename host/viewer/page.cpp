@@ -6,6 +6,7 @@
 #include "base/lists.h"
 #include "base/memory.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "gloam/planes.h"
 #include "page/html.h"
 #include "picture/tile.h"
@@ -106,12 +107,16 @@ PageWriter::PageWriter(NewFile& out, PageOptions options)
   append(page::filled(halves_of_template().first, parts));
 }
 
+std::string ways_to_smaller_pages() {
+  return fmt::format("{}, {} and {} take fewer images, {} and {} make them smaller", option("planes"), option("frames"),
+                     option("views"), option("half"), option("scale"));
+}
+
 void PageWriter::append(const std::string& text) {
   bytes_ += text.size();
   if (bytes_ > most_page_bytes || text.size() > most_element_bytes)
     throw Error("the page would be larger than browsers open ({} in all and {} for one channel); {}",
-                memory_in_words(most_page_bytes), memory_in_words(most_element_bytes),
-                "--planes, --frames and --views take fewer images, --half and --scale make them smaller");
+                memory_in_words(most_page_bytes), memory_in_words(most_element_bytes), ways_to_smaller_pages());
   out_.append(text);
 }
 
@@ -130,8 +135,8 @@ Json PageWriter::put_plane(const Frame& frame, const View& view, const Plane& pl
   bool half = options_.half && tile.style != PictureStyle::identity;
   if (half && !std::all_of(plane.channels.begin(), plane.channels.end(), fits_half)) {
     half = false;
-    add_new(notes_, fmt::format("--half: {} of {} has values beyond the range of half, and stays float", plane.name,
-                                texts.name));
+    add_new(notes_, fmt::format("{}: {} of {} has values beyond the range of half, and stays float", option("half"),
+                                plane.name, texts.name));
   }
   const auto window = texts.windows.find({view.name, plane.name});
   const Grid grid = grid_of(window == texts.windows.end() ? frame.window : window->second, frame.window, options_.step);

@@ -38,6 +38,9 @@ inline constexpr unsigned long long most_element_bytes = 500ull << 20;
 /// From here on opening the page takes seconds.
 inline constexpr unsigned long long large_page_bytes = 150ull << 20;
 
+/// What makes a page smaller, in words.
+std::string ways_to_smaller_pages();
+
 /// Writes a page frame by frame, so that one frame is in memory at a time.
 class PageWriter {
  public:

@@ -29,6 +29,22 @@ TEST_F(Variants, LayersChooseTheRowThatANameHas) {
             "dp-evidence/estimate");
 }
 
+TEST_F(Variants, ThatNoTechniqueOfAnEffectHasAreRefusedInOneLine) {
+  Frame frame = shoot(perspective(48, 32), room());
+  invent_plane(frame, "contact");
+  write_frame(path("frame.exr"), frame);
+  const std::string file = path("frame.exr").string();
+  const std::string words =
+      "--layers peeled: no technique that makes contact has this variant; there are contact-shadow";
+  for (const Arguments& arguments :
+       {Arguments{"pick", file, "--truth", file, "--budget", "20ms", "--layers", "peeled"},
+        Arguments{"bench", "-o", path("out").string(), "--effects", "contact", "--layers", "peeled"}}) {
+    const Result result = gloam(arguments);
+    EXPECT_EQ(result.status, 2) << result.err;
+    EXPECT_EQ(result.err, "gloam: " + words + "\n");
+  }
+}
+
 TEST_F(Variants, OfEveryRowAreFoundByItsMethodAndFlags) {
   const Json rows = gloam({"list", "techniques", "--json", "-"}).json();
   EXPECT_EQ(rows.size(), registry().size());
@@ -69,8 +85,9 @@ TEST_F(Variants, ThatDoNotExistAreRefusedWithThoseThatDo) {
   EXPECT_EQ(
       said({"stereo-gtao", "--eyes", "one"}),
       "gloam: stereo-gtao: is gtao with --eyes both, which --eyes one contradicts; leave that out, or name gtao\n");
-  EXPECT_NE(said({"gtao", "--layers", "peel"}).find("--layers peel is not allowed (did you mean 'peeled'?); one, "
-                                                    "stochastic and peeled are"),
+  EXPECT_NE(said({"gtao", "--layers", "peel"})
+                .find("--layers peel is not allowed (did you mean 'peeled'?); one, "
+                      "stochastic and peeled are"),
             std::string::npos);
 }
 

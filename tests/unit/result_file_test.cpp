@@ -122,7 +122,7 @@ TEST_F(ResultFiles, AnotherSceneOfThatNameIsRefused) {
   const auto says = [&](const std::function<void(Results&)>& change) {
     return message_of([&] { file.update(change); });
   };
-  const std::string words = "'room' there has the radius 0.5, and here 2.0; write these results to another folder (-o)";
+  const std::string words = "'room' with the radius 0.5, and the new results have 2.0; write them to another folder";
   EXPECT_NE(says([](Results& results) { results.put(row("more", "room", 1), scene("room", 2)); }).find(words),
             std::string::npos);
   EXPECT_NE(says([](Results& results) {

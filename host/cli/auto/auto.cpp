@@ -5,10 +5,7 @@
 #include <memory>
 
 #include "auto/mask_words.h"
-#include "cli/auto/explanations.h"
-#include "cli/auto/frame.h"
-#include "cli/auto/report.h"
-#include "cli/auto/shot.h"
+#include "cli/auto/command.h"
 #include "cli/flags/given_flags.h"
 #include "cli/flags/memory.h"
 #include "cli/flags/radius.h"
@@ -16,6 +13,7 @@
 #include "cli/shot/shot.h"
 #include "gloam/error.h"
 #include "gloam/visualise.h"
+#include "shot/auto_step.h"
 
 namespace gloam::cli {
 namespace {
@@ -42,7 +40,7 @@ void run_on_one_frame(const AutoCommand& flags) {
   check_goal(flags.goal, planned);
   check_has_depth(planned, flags.out);
   std::optional<CompositeSource> source =
-      open_composite(flags.composite, flags.frame.files(), flags.frame_flags.read_options());
+      open_composite(flags.composite.asked(), flags.frame.files(), flags.frame_flags.read_options());
   const unsigned long long memory = planned_memory(
       flags.frame_flags, planned.files.name(), flags.run_flags.device,
       [&](bool shares_memory) { return bytes_of_auto(planned, shares_memory) + bytes_of(source); },
@@ -98,7 +96,7 @@ void run_on_one_frame(const AutoCommand& flags) {
   print(result, flags.goal);
   if (radius) radius->print();
   if (composition) fmt::print("{}\n", composition_in_words(*composition));
-  for (const std::string& path : written) fmt::print("wrote {}\n", printable(path));
+  print_written(written);
 }
 
 /// Throws UsageError where nothing would be written, and for a flag that has no effect on any of the files.
@@ -135,10 +133,8 @@ void add_auto(CLI::App& app) {
   auto flags = std::make_shared<AutoCommand>();
   CLI::App* command = app.add_subcommand("auto", "look at a frame, and compute only the effects that it calls for");
   flags->frame.add_to(*command);
-  command->add_option("-o,--output", flags->out, "EXR file to write, with the planes of all effects")
-      ->type_name("OUT.exr");
-  command->add_option("--explain", flags->explain, "picture of what is called for where, and why")
-      ->type_name("OUT.png");
+  add_text(*command, "-o,--output", flags->out, "OUT.exr", "EXR file to write, with the planes of all effects");
+  add_text(*command, "--explain", flags->explain, "OUT.png", "picture of what is called for where, and why");
   add_choice(*command, "--mask", flags->mask, mask_words,
              "whether an effect is computed only where the frame calls for it; measured (the default): both ways are "
              "timed, 3 rounds in turn, and the mask is used where it saves 5 % or more; of a shot: never");

@@ -1,4 +1,4 @@
-// The flags of gloam auto.
+// The flags of gloam auto, and what it prints: shared by the files of the command.
 #pragma once
 
 #include <optional>
@@ -6,9 +6,11 @@
 
 #include "auto/automatic.h"
 #include "auto/budget.h"
+#include "auto/report.h"
 #include "cli/auto/composite.h"
 #include "cli/flags/options.h"
 #include "cli/flags/shot_flags.h"
+#include "gloam/explanation.h"
 
 namespace gloam::cli {
 
@@ -26,5 +28,15 @@ struct AutoCommand {
   JsonFlag json;
   std::string given;  ///< flags that decide what is written, as text
 };
+
+/// Decides for each frame by itself, at one radius for all, and tells in which frames each effect was wanted. Throws Error at the
+/// end if a frame failed; the others are written.
+void run_auto_on_shot(const AutoCommand& flags);
+
+/// The table of effects, and for a budget a line of what was spent.
+void print(const AutoResult& result, const BudgetGoal& goal);
+
+/// The effects and their refinements, on one view. Points to planes of `outcomes`.
+std::vector<Explanation> explanations_of(const std::vector<Outcome>& outcomes, const std::string& view);
 
 }  // namespace gloam::cli

@@ -9,10 +9,8 @@
 #include "cli/bench/baseline.h"
 #include "cli/bench/chunks.h"
 #include "cli/bench/file.h"
-#include "cli/bench/google.h"
 #include "cli/bench/paper.h"
 #include "cli/bench/print.h"
-#include "cli/bench/processes.h"
 #include "cli/bench/request.h"
 #include "cli/bench/rows.h"
 #include "cli/bench/sequence.h"
@@ -23,8 +21,10 @@
 #include "gloam/error.h"
 #include "measure/document.h"
 #include "measure/effects.h"
+#include "measure/google_benchmark.h"
 #include "measure/measurement.h"
 #include "measure/native.h"
+#include "measure/processes.h"
 #include "report/comparison_page.h"
 
 namespace gloam::cli {
@@ -59,10 +59,8 @@ void print_chunks(const BenchCommand& flags) {
 
 /// The first flag given that says how frames are read; empty if there is none.
 std::string reading_flag(const CLI::App& app) {
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->get_group() == "Reading the frame" && option->count() > 0) return option->get_name();
-  }
-  return "";
+  const std::vector<const CLI::Option*> given = reading_flags(app);
+  return given.empty() ? "" : given.front()->get_name();
 }
 
 SequenceBenchFlags sequence_flags(const BenchCommand& flags) {
@@ -91,6 +89,15 @@ void bench_rows_of_set(const BenchCommand& flags, Device& device, const std::vec
   if (compared) tell(*compared, flags.regression, flags.json.only_json());
 }
 
+/// Flags that a further process has in its own form, or not.
+const std::set<std::string>& not_of_further_processes() {
+  static const std::set<std::string> flags = {
+      "--output", "--json",    "--rows",      "--baseline",  "--regression", "--processes",
+      "--rounds", "--effects", "--scenes",    "--presets",   "--techniques", "--variants",
+      "--sweep",  "--ladder",  "--no-growth", "--no-checks", "--no-images",  "--google-benchmark"};
+  return flags;
+}
+
 /// Throws UsageError for flags about frames without frames.
 void check_flags(const BenchCommand& flags) {
   if (flags.sequence.empty() && flags.choice.frames) throw UsageError("--frames: is for a shot; --sequence names one");
@@ -103,6 +110,50 @@ void check_flags(const BenchCommand& flags) {
   const std::string reading = reading_flag(*flags.app);
   if (flags.frame.empty() && !reading.empty())
     throw UsageError("{}: says how frames are read, and there is none; --frame or --sequence names them", reading);
+}
+
+/// What is told of the subjects that were measured.
+struct MeasuredSubjects {
+  std::vector<std::pair<std::string, RadiusReport>> radii;
+  unsigned long long memory = 0;  ///< of the user's own frame, bytes
+};
+
+/// Measures the effects on the user's own frame, else on the scenes.
+MeasuredSubjects measure_subjects(const BenchCommand& flags, const BenchOptions& options, const BenchFile& written,
+                                  TimeLimit& limit, Device& device, Measurement& result) {
+  MeasuredSubjects measured;
+  const bool is_own = !flags.frame.empty();
+  const size_t frames = is_own ? 1 : options.scenes.size();
+  size_t left = options.effects.size() * frames;
+  for (size_t i = 0; i < frames; ++i) {
+    for (const std::string& effect : options.effects) {
+      MeasureOptions of_effect = for_effect(options, effect);
+      const auto start = std::chrono::steady_clock::now();
+      Subject subject = is_own ? own_subject(own_frame(flags.frame, flags.frame_flags, flags.truths), effect,
+                                             of_effect.techniques, options.scene, note)
+                               : builtin_subject(*options.scenes[i], effect, of_effect.techniques, options.scene, note);
+      written.check(subject);
+      if (is_own) measured.memory = std::max(measured.memory, subject.memory_bytes);
+      if (!is_own) limit.extend(seconds_since(start));  // capturing and tracing are done once, and their files stay
+      if (effect == options.effects.front())
+        measured.radii.emplace_back(subject.name, report_of(subject, options.techniques));
+      of_effect.limit = limit.part(1.0 / double(left--));
+      measure(subject, of_effect, i == 0, device, result);
+    }
+  }
+  return measured;
+}
+
+/// Tells the ledger of what is read and written. `before`: an earlier result, if any.
+void check_files(const BenchCommand& flags, const BenchOptions& options, const NamedPath& before) {
+  std::vector<NamedPath> inputs = {{"--frame", flags.frame}, {"--camera", flags.frame_flags.camera}};
+  for (const std::string& truth : flags.truths) inputs.emplace_back("--truth", truth);
+  inputs.push_back(before);
+  check_paths(inputs,
+              {{"-o", (options.scene.folder / "scene.exr").string()},
+               {"--google-benchmark", flags.google_benchmark},
+               {"--json", flags.json.file()}},
+              {{"-o", (std::filesystem::path(flags.folder) / "bench.json").string()}});
 }
 
 void bench_command(const BenchCommand& given) {
@@ -135,49 +186,16 @@ void bench_command(const BenchCommand& given) {
     return bench_sequence(sequence_flags(flags), options, options.scene, result.skipped, device, flags.json);
   make_output_folder(options.scene.folder);
   const std::filesystem::path folder = flags.folder;
-  std::vector<NamedPath> inputs = {{"--frame", flags.frame}, {"--camera", flags.frame_flags.camera}};
-  for (const std::string& truth : flags.truths) inputs.emplace_back("--truth", truth);
-  if (before) inputs.emplace_back(earlier, before->file.string());
-  check_paths(inputs,
-              {{"-o", (options.scene.folder / "scene.exr").string()},
-               {"--google-benchmark", flags.google_benchmark},
-               {"--json", flags.json.file()}},
-              {{"-o", (folder / "bench.json").string()}});
+  check_files(flags, options, {earlier, before ? before->file.string() : ""});
   const BenchFile written(flags.folder);
   say_on_interruption("bench.json is as it was, and pictures and truths of this run may lie beside it; run it again");
-  std::vector<std::pair<std::string, RadiusReport>> radii;
-  unsigned long long memory = 0;
   TimeLimit limit = measures_all(flags) ? TimeLimit() : TimeLimit(flags.time);
   options.limit = limit;
   if (limit.is_set())
     options.progress = [&limit](const std::string& what, double share) {
       show_status(fmt::format("{}, {} left", what, time_words(limit.left())), share);
     };
-  size_t subjects = options.effects.size() * (flags.frame.empty() ? options.scenes.size() : 1);
-  if (!flags.frame.empty()) {
-    for (const std::string& effect : options.effects) {
-      MeasureOptions of_effect = for_effect(options, effect);
-      Subject subject = own_subject(own_frame(flags.frame, flags.frame_flags, flags.truths), effect,
-                                    of_effect.techniques, options.scene, note);
-      written.check(subject);
-      memory = std::max(memory, subject.memory_bytes);
-      if (effect == options.effects.front()) radii.emplace_back(subject.name, report_of(subject, options.techniques));
-      of_effect.limit = limit.part(1.0 / double(subjects--));
-      measure(subject, of_effect, true, device, result);
-    }
-  }
-  for (size_t i = 0; i < options.scenes.size(); ++i) {
-    for (const std::string& effect : options.effects) {
-      MeasureOptions of_effect = for_effect(options, effect);
-      const auto start = std::chrono::steady_clock::now();
-      Subject subject = builtin_subject(*options.scenes[i], effect, of_effect.techniques, options.scene, note);
-      written.check(subject);
-      limit.extend(seconds_since(start));  // capturing and tracing are done once, and their files stay
-      if (effect == options.effects.front()) radii.emplace_back(subject.name, report_of(subject, options.techniques));
-      of_effect.limit = limit.part(1.0 / double(subjects--));
-      measure(subject, of_effect, i == 0, device, result);
-    }
-  }
+  const MeasuredSubjects measured = measure_subjects(flags, options, written, limit, device, result);
   erase_status();
   note(result.notes);
   if (result.rows.empty() && !result.left_out.empty())
@@ -185,16 +203,23 @@ void bench_command(const BenchCommand& given) {
                 time_words(flags.time));
   if (result.rows.empty())
     throw Error("nothing could be measured: {} {}", result.skipped.back().technique, result.skipped.back().why);
-  Json document = report::document_of(results_of(result, options, device.info()));
-  if (memory > 0) document["memory_bytes"] = memory;
-  document["time_limit_s"] = limit.is_set() ? Json(flags.time) : Json(nullptr);
+  report::Measurements results = results_of(result, options, device.info());
+  const auto document_of_all = [&](int processes) {
+    Json document = report::document_of(results);
+    if (measured.memory > 0) document["memory_bytes"] = measured.memory;
+    document["time_limit_s"] = limit.is_set() ? Json(flags.time) : Json(nullptr);
+    if (processes > 1) document["processes"] = processes;
+    return document;
+  };
   const std::filesystem::path file = written.path();
+  Json document = document_of_all(1);
   written.write(document);
   if (flags.processes > 1) {
-    measure_in_more_processes({flags.processes, flags.repeated, folder, flags.rounds}, document);
-    written.write(document);
+    measure_in_more_processes({flags.processes, flags.repeated, folder, flags.rounds, show_status}, results);
+    erase_status();
+    written.write(document = document_of_all(flags.processes));
   }
-  if (!flags.google_benchmark.empty()) write_google_benchmark(flags.google_benchmark, document);
+  if (!flags.google_benchmark.empty()) JsonFlag{flags.google_benchmark}.write(google_benchmark_of(document));
   std::optional<ComparedWithBaseline> compared;
   if (!flags.baseline.empty()) {
     compared = compare_with_baseline(*before, file);
@@ -205,8 +230,33 @@ void bench_command(const BenchCommand& given) {
   if (flags.json.only_json()) return;
   if (before) return fmt::print("wrote {}\n", printable(file.string()));
   print(result, options, device.info());
-  for (const auto& [name, radius] : radii) fmt::print("{}: {}\n", printable(name), radius.words());
+  for (const auto& [name, radius] : measured.radii) fmt::print("{}: {}\n", printable(name), radius.words());
   fmt::print("wrote {}\n", printable((folder / "bench.json").string()));
+}
+
+/// What is measured on.
+void add_subject_flags(CLI::App& command, BenchCommand& flags) {
+  CLI::Option* scenes = add_text(command, "--scenes", flags.scenes, "A,B",
+                                 "built-in scenes, or all; default: " + enumerate(default_scenes));
+  CLI::Option* frame =
+      add_text(command, "--frame", flags.frame, "FRAME.exr", "measure on this frame instead of scenes");
+  add_text(command, "--truth", flags.truths, "REF.exr",
+           "the frame's truth, as gloam reference makes it, once for each effect, of all views, or once for each "
+           "view (REF_left.exr, REF_right.exr); default: traced where the frame shows a built-in scene")
+      ->expected(1)
+      ->take_all();
+  add_text(command, "--sequence", flags.sequence, "SHOT|FRAME.####.exr",
+           "measure on a shot instead, with flicker and over time: one of gloam list shots, or a pattern");
+  add_text(command, "--set", flags.set, "DIR",
+           "measure on the items of a set instead, as gloam set make makes it, beside methods that gloam score adds");
+  add_text(command, "--items", flags.items, "A,B", "with --set: these items only")->needs("--set");
+  add_frames(command, flags.choice);
+  add_missing_without_hold(command, flags.choice);
+  command.get_option("--frames")->description("with --sequence: 1001-1100, 1-99x2 or 1,5,9-12; default: the first 10");
+  CLI::Option* size =
+      add_parsed(command, "--size", flags.size, parse_size,
+                 "of the scenes' images; default 960x540, with --paper 1920x1080, with --sequence 640x360", "WxH");
+  frame->excludes(scenes)->excludes(size);
 }
 
 }  // namespace
@@ -215,68 +265,27 @@ void add_bench(CLI::App& app) {
   auto flags = std::make_shared<BenchCommand>();
   CLI::App* command =
       app.add_subcommand("bench", "what accuracy costs in time: times, ratios and errors of techniques");
-  command
-      ->add_option("-o,--output", flags->folder,
-                   "folder for bench.json, images/ and scenes/; made where it is not there")
-      ->required()
-      ->type_name("DIR");
-  command
-      ->add_option("--effects", flags->effects,
-                   "planes that are measured: " + enumerate(effect_names()) +
-                       ", or all; default: those that --truth holds, or that --techniques make, else ao")
-      ->type_name("A,B");
-  command->add_option("--techniques", flags->techniques, "these only; default: all that make the effects of every view")
-      ->type_name("A,B");
+  add_text(*command, "-o,--output", flags->folder, "DIR",
+           "folder for bench.json, images/ and scenes/; made where it is not there")
+      ->required();
+  add_text(*command, "--effects", flags->effects, "A,B",
+           "planes that are measured: " + enumerate(effect_names()) +
+               ", or all; default: those that --truth holds, or that --techniques make, else ao");
+  add_text(*command, "--techniques", flags->techniques, "A,B",
+           "these only; default: all that make the effects of every view");
   flags->variant.add_to(*command);
-  command->add_option("--presets", flags->presets, "these only; default: all that a technique has")->type_name("A,B");
-  CLI::Option* scenes =
-      command->add_option("--scenes", flags->scenes, "built-in scenes, or all; default: " + enumerate(default_scenes))
-          ->type_name("A,B");
-  CLI::Option* frame =
-      command->add_option("--frame", flags->frame, "measure on this frame instead of scenes")->type_name("FRAME.exr");
-  command
-      ->add_option(
-          "--truth", flags->truths,
-          "the frame's truth, as gloam reference makes it, once for each effect, of all views, or once for each "
-          "view (REF_left.exr, REF_right.exr); default: traced where the frame shows a built-in scene")
-      ->expected(1)
-      ->take_all()
-      ->type_name("REF.exr");
-  CLI::Option* sequence =
-      command
-          ->add_option("--sequence", flags->sequence,
-                       "measure on a shot instead, with flicker and over time: one of gloam list shots, or a pattern")
-          ->type_name("SHOT|FRAME.####.exr");
-  command
-      ->add_option(
-          "--set", flags->set,
-          "measure on the items of a set instead, as gloam set make makes it, beside methods that gloam score adds")
-      ->type_name("DIR");
-  command->add_option("--items", flags->items, "with --set: these items only")->needs("--set")->type_name("A,B");
-  add_frames(*command, flags->choice);
-  add_missing_without_hold(*command, flags->choice);
-  command->get_option("--frames")->description("with --sequence: 1001-1100, 1-99x2 or 1,5,9-12; default: the first 10");
-  CLI::Option* size =
-      add_parsed(*command, "--size", flags->size, parse_size,
-                 "of the scenes' images; default 960x540, with --paper 1920x1080, with --sequence 640x360")
-          ->type_name("WxH");
-  frame->excludes(scenes)->excludes(size);
+  add_text(*command, "--presets", flags->presets, "A,B", "these only; default: all that a technique has");
+  add_subject_flags(*command, *flags);
   add_number(*command, "--rays", flags->rays, allowed_rays,
-             "per pixel, for truths that are traced; default 256, with --paper what the paper's figures need")
-      ->type_name("N");
+             "per pixel, for truths that are traced; default 256, with --paper what the paper's figures need", "N");
   add_number(*command, "--radius", flags->radius, allowed_radii,
-             "scene units; default: the truth's, else the scene's own, else made from the frame")
-      ->type_name("R");
-  command
-      ->add_option("--variants", flags->variants,
-                   fmt::format("of one preset (medium, else the first): none, all or some of {}; default: {}",
-                               enumerate(variant_names()), enumerate(default_variants())))
-      ->type_name("A,B");
-  command
-      ->add_option("--sweep", flags->sweeps,
-                   "values of a parameter to measure in turn, as variants of the same preset, for techniques that have "
-                   "it (repeatable: every combination)")
-      ->type_name("NAME=V1,V2")
+             "scene units; default: the truth's, else the scene's own, else made from the frame", "R");
+  add_text(*command, "--variants", flags->variants, "A,B",
+           fmt::format("of one preset (medium, else the first): none, all or some of {}; default: {}",
+                       enumerate(variant_names()), enumerate(default_variants())));
+  add_text(*command, "--sweep", flags->sweeps, "NAME=V1,V2",
+           "values of a parameter to measure in turn, as variants of the same preset, for techniques that have "
+           "it (repeatable: every combination)")
       ->expected(1)
       ->take_all();
   add_choice(*command, "--ladder", flags->ladder,
@@ -284,13 +293,13 @@ void add_bench(CLI::App& app) {
              "where errors come from, step by step; all: of variants too; default presets");
   add_number(*command, "--rounds", flags->rounds, allowed_rounds,
              "each runs everything once, in turn; default 9 with --all, else 6 to 30: until the ratio of each setting "
-             "is known to 2 %")
-      ->type_name("N");
+             "is known to 2 %",
+             "N");
   CLI::Option* time = add_parsed(*command, "--time", flags->time, parse_time,
                                  "how long measuring may take, the front first, then the rest as time allows; what was "
                                  "left out is said; capturing and "
-                                 "tracing built-in scenes does not count; default 1m")
-                          ->type_name("1m");
+                                 "tracing built-in scenes does not count; default 1m",
+                                 "1m");
   command->add_flag("--all", flags->all, "measure everything, however long it takes; of a shot and of --set always")
       ->excludes(time);
   command->add_flag("--no-growth", flags->no_growth, "leave out how times grow with pixels, samples, radius ...");
@@ -299,14 +308,10 @@ void add_bench(CLI::App& app) {
   command->add_flag("--no-images", flags->no_images, "leave out the pictures in DIR/images");
   flags->DeviceFlags::add_to(*command);
   CLI::Option* paper =
-      command
-          ->add_option("--paper", flags->paper,
-                       "measure the tables and figures of a paper again, instead: " + enumerate(paper_names()))
-          ->type_name("NAME");
-  command
-      ->add_option("--google-benchmark", flags->google_benchmark,
-                   "also write the result in Google Benchmark's form, for tools that read it")
-      ->type_name("FILE.json")
+      add_text(*command, "--paper", flags->paper, "NAME",
+               "measure the tables and figures of a paper again, instead: " + enumerate(paper_names()));
+  add_text(*command, "--google-benchmark", flags->google_benchmark, "FILE.json",
+           "also write the result in Google Benchmark's form, for tools that read it")
       ->group("Writing");
   add_chunk_flags(*command, flags->chunks, flags->print, "the scenes, and named techniques,", "Several machines");
   flags->frame_flags.add_to(*command);
@@ -318,7 +323,7 @@ void add_bench(CLI::App& app) {
   }
   for (const char* option : {"--scenes", "--frame", "--variants", "--sweep", "--ladder", "--rounds", "--no-growth",
                              "--no-checks", "--no-images", "--chunks", "--time", "--google-benchmark"})
-    sequence->excludes(command->get_option(option));
+    command->get_option("--sequence")->excludes(command->get_option(option));
   flags->app = command;
   flags->json.add_to(*command);
   command->footer(

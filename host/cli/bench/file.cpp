@@ -1,10 +1,10 @@
 #include "cli/bench/file.h"
 
-#include "cli/flags/noted.h"
+#include "cli/flags/notes.h"
 
 namespace gloam::cli {
 
-BenchFile::BenchFile(const std::filesystem::path& folder, const std::optional<score::SetId>& set)
+BenchFile::BenchFile(const std::filesystem::path& folder, const report::SetFacts& set)
     : alone_(folder), file_(folder, set) {}
 
 void BenchFile::check(const bench::Subject& subject) const {

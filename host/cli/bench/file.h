@@ -14,9 +14,9 @@ namespace gloam::cli {
 /// `gloam score` has added stays.
 class BenchFile {
  public:
-  /// `set`: none for scenes and frames of the user's own. Throws Error for a file that is no result or of another set, and while
+  /// `set`: empty for scenes and frames of the user's own. Throws Error for a file that is no result or of another set, and while
   /// another process measures into the folder.
-  explicit BenchFile(const std::filesystem::path& folder, const std::optional<score::SetId>& set = {});
+  explicit BenchFile(const std::filesystem::path& folder, const report::SetFacts& set = {});
 
   std::filesystem::path path() const { return file_.path(); }
 

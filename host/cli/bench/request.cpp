@@ -29,7 +29,8 @@ void choose_techniques(BenchOptions& options, const BenchCommand& flags, Measure
   options.effects = !asked.empty() ? asked : list.empty() ? std::vector<std::string>{"ao"} : effect_names();
   for (const Technique& t : registry()) {
     if (!list.empty()) continue;
-    const std::string unlike = why_not_measured(t, options.effects), why = unlike.empty() ? needs_naming(t) : unlike;
+    const std::string unlike = why_not_measured(t, options.effects),
+                      why = unlike.empty() ? needs_naming(t, flags.variant) : unlike;
     if (why.empty() && fits(t, flags.variant))
       options.techniques.push_back(&t);
     else if (!why.empty())
@@ -38,7 +39,7 @@ void choose_techniques(BenchOptions& options, const BenchCommand& flags, Measure
   // A truth that several techniques share has the name of the one over a single layer.
   std::stable_partition(options.techniques.begin(), options.techniques.end(),
                         [](const Technique* t) { return !reads_layers(*t); });
-  if (list.empty()) return;
+  if (list.empty()) return check_any_fits(options.techniques, flags.variant, options.effects);
   for (const std::string& name : split_list(list, "--techniques")) {
     const Technique& t = find_technique(variant_name(name, flags.variant));
     if (const std::string why = why_not_measured(t, options.effects); !why.empty())

@@ -121,27 +121,21 @@ BenchCommand flags_for_rows(BenchCommand flags, const report::Source& source, st
 }
 
 void add_rows_flags(CLI::App& app, BenchCommand& flags) {
-  const char* group = "Earlier results";
-  CLI::Option* rows =
-      app.add_option("--rows", flags.rows, "measure the rows of this result again, times and errors, and nothing else")
-          ->type_name("BENCH.json")
-          ->group(group);
+  const Heading heading(app, "Earlier results");
+  CLI::Option* rows = add_text(app, "--rows", flags.rows, "BENCH.json",
+                               "measure the rows of this result again, times and errors, and nothing else");
   CLI::Option* baseline =
-      app.add_option("--baseline", flags.baseline,
-                     "the same, and say which rows are slower or farther from the truth; exit status 1 if any is")
-          ->type_name("BENCH.json")
-          ->group(group)
+      add_text(app, "--baseline", flags.baseline, "BENCH.json",
+               "the same, and say which rows are slower or farther from the truth; exit status 1 if any is")
           ->excludes(rows);
   add_choice(app, "--regression", flags.regression,
              {{"time", Regression::time}, {"error", Regression::error}, {"both", Regression::both}},
              "with --baseline: what fails; default both")
-      ->group(group)
       ->needs(baseline);
   add_number(app, "--processes", flags.processes, {1, 100},
              "measure times in so many processes, one after another, since two processes of one build differ; "
-             "default 1, with --rows and --baseline as many as then")
-      ->type_name("N")
-      ->group(group);
+             "default 1, with --rows and --baseline as many as then",
+             "N");
   for (const char* chosen :
        {"--effects", "--techniques", "--presets", "--scenes", "--variants", "--sweep", "--ladder", "--no-growth",
         "--no-checks", "--no-images", "--sequence", "--chunks", "--time", "--items"}) {

@@ -111,7 +111,7 @@ std::vector<FramePattern> patterns_of(const SequenceBenchFlags& flags) {
   return patterns;
 }
 
-std::vector<SequenceFrame> frames_of(const SequenceBenchFlags& flags, const ShotFiles& shot) {
+std::vector<SequenceFrame> frames_of(const SequenceBenchFlags& flags, const SequenceFiles& shot) {
   std::vector<SequenceFrame> frames = shot.frames();
   if (flags.choice.frames || frames.size() <= default_frames) return frames;
   note({fmt::format("the first {} of {} frames are measured; --frames says which", default_frames, frames.size())});
@@ -131,7 +131,7 @@ void check_memory(const SequenceBenchFlags& flags, const MeasuredFrame& first, s
                  "measure fewer frames (--frames)");
 }
 
-void add_own(MeasuredSequence& sequence, const SequenceBenchFlags& flags, const ShotFiles& shot,
+void add_own(MeasuredSequence& sequence, const SequenceBenchFlags& flags, const SequenceFiles& shot,
              const MeasureOptions& options, SceneOptions making) {
   sequence.name = flags.sequence;
   sequence.scene_class = "own";
@@ -169,14 +169,11 @@ void leave_out_layers(MeasureOptions& options, std::vector<Skipped>& skipped, co
 }
 
 void print(const MeasuredSequence& sequence, const SequenceMeasurement& measured, const DeviceInfo& device) {
-  const Table table = table_of_sequence(sequence, measured);
   fmt::print("{}, {} ({})\n", cpu_model(), printable(device.name), printable(device.platform));
   fmt::print(
       "ms: kernels of one frame, median over the frames; /hbao+: over HBAO+ medium on the same frame.\n"
       "RMSE, SSIM: mean over the frames; flicker: of the error, from frame to frame (docs/sequences.md).\n");
-  fmt::print("\n{}\n", printable(table.title));
-  print_table(table.rows, table.first_number);
-  for (const std::string& line : table.below) fmt::print("{}\n", printable(line));
+  cli::print(table_of_sequence(sequence, measured));
   print_skipped(measured.skipped);
 }
 
@@ -225,8 +222,8 @@ SequenceMeasurement measured_on(MeasuredSequence& sequence, const MeasureOptions
 }
 
 /// The user's frames; throws UsageError or Error where they cannot be measured.
-ShotFiles own_frames(const SequenceBenchFlags& flags) {
-  ShotFiles shot(patterns_of(flags), flags.frame_flags, flags.choice);
+SequenceFiles own_frames(const SequenceBenchFlags& flags) {
+  SequenceFiles shot = shot_files(patterns_of(flags), flags.frame_flags, flags.choice);
   if (!flags.frame_flags.camera.empty() && shot.camera_of(shot.frames().front()).empty())
     throw UsageError("--camera {}: lists cameras; write one file for each frame, as in camera.####.json",
                      flags.frame_flags.camera);
@@ -236,7 +233,7 @@ ShotFiles own_frames(const SequenceBenchFlags& flags) {
 
 void read_own(MeasuredSequence& sequence, const SequenceBenchFlags& flags, const MeasureOptions& options,
               const SceneOptions& making, const std::vector<NamedPath>& outputs) {
-  const ShotFiles shot = own_frames(flags);
+  const SequenceFiles shot = own_frames(flags);
   make_output_folder(making.folder);
   check_outputs({}, shot, outputs);
   add_own(sequence, flags, shot, options, making);

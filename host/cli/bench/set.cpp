@@ -5,12 +5,12 @@
 #include "base/json_text.h"
 #include "cli/bench/file.h"
 #include "cli/bench/print.h"
-#include "cli/score/targets.h"
 #include "gloam/error.h"
 #include "measure/document.h"
 #include "measure/effects.h"
 #include "measure/sequence.h"
 #include "measure/sequence_document.h"
+#include "score/targets.h"
 
 namespace gloam::cli {
 namespace {
@@ -46,18 +46,18 @@ void check_set_flags(const BenchCommand& flags) {
   if (flags.app->get_option("--time")->count() > 0)
     throw UsageError(
         "--time: of a set everything is measured; leave it out, or choose --items, --techniques or --presets");
-  for (const CLI::Option* option : flags.app->get_options()) {
-    if (option->get_group() == "Reading the frame" && option->count() > 0)
-      throw UsageError("{}: says how frames are read, and those of a set say it themselves; leave it out",
-                       option->get_name());
-  }
+  check_no_reading_flags(*flags.app);
 }
 
 class SetBench {
  public:
   SetBench(const BenchCommand& given, Device& device, const RowsOfSet& again)
-      : set_(read_set(given.set)), device_(device), flags_(with_defaults(given, set_.targets)), again_(again) {
-    if (!flags_.items.empty()) keep_items(set_.targets, split_list(flags_.items, "--items"));
+      : set_(score::read_set(given.set, result_.notes)),
+        device_(device),
+        flags_(with_defaults(given, set_.targets)),
+        again_(again) {
+    note(result_.notes);
+    if (!flags_.items.empty()) score::keep_items(set_.targets, split_list(flags_.items, "--items"));
     options_ = options_of(flags_, device.info(), result_);
     options_.rows = again_.rows;
     // of eyes they are measured, and no frame is left out
@@ -110,7 +110,7 @@ class SetBench {
     MeasureOptions options = for_effect(options_, target.effect);
     if (target.views.size() != 2 || !flags_.techniques.empty()) return options;
     for (const Technique& technique : registry()) {
-      if (!needs_naming(technique).empty() && why_not_measured(technique, {target.effect}).empty())
+      if (!needs_naming(technique, flags_.variant).empty() && why_not_measured(technique, {target.effect}).empty())
         options.techniques.push_back(&technique);
     }
     return options;
@@ -214,7 +214,7 @@ class SetBench {
     for (report::Scene& scene : made.scenes) add_kind(scene.kind, scene.name);
     for (report::Row& row : made.rows) add_kind(row.kind, row.scene);
     Json document = report::document_of(made);
-    document["set"] = score::document_of(set_.id);
+    document["set"] = report::json_of(set_.id);
     return document;
   }
 
@@ -229,12 +229,12 @@ class SetBench {
     fmt::print("wrote {}\n", printable(file_->path().string()));
   }
 
-  ScoredSet set_;
+  Measurement result_;
+  score::ScoredSet set_;
   Device& device_;
   const BenchCommand flags_;
   const RowsOfSet& again_;
   BenchOptions options_;
-  Measurement result_;
   std::optional<BenchFile> file_;
   std::vector<Measured> sequences_;
   std::vector<report::Scene> sequence_scenes_;

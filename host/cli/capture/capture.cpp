@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "base/elapsed.h"
+#include "cli/capture/command.h"
 #include "cli/capture/flags.h"
-#include "cli/capture/result.h"
 #include "cli/capture/shots.h"
 #include "cli/flags/shot_flags.h"
 #include "gloam/display_json.h"
@@ -202,61 +202,47 @@ void capture_command(const CaptureCommand& flags) {
 void add_capture(CLI::App& app) {
   auto flags = std::make_shared<CaptureCommand>();
   CLI::App* command = app.add_subcommand("capture", "a G-buffer of a scene: an OBJ or glTF file, or a built-in one");
-  command->add_option("scene", flags->scene.scene, "OBJ or glTF file, or a name of gloam list scenes")
-      ->required()
-      ->type_name("SCENE");
-  command->add_option("-o,--output", flags->out, "EXR file to write")->required()->type_name("FRAME.exr");
-  add_parsed(*command, "--size", flags->size, parse_size, "of the image; default 1920x1080")->type_name("WxH");
-  command->add_option("--planes", flags->planes, "these planes and depth only: " + enumerate(capture_planes()))
-      ->type_name("A,B");
-  add_number(*command, "--peel", flags->peel, {0, 64}, "depth layers to store per pixel, 0 to 64")->type_name("N");
+  add_text(*command, "scene", flags->scene.scene, "SCENE", "OBJ or glTF file, or a name of gloam list scenes")
+      ->required();
+  add_text(*command, "-o,--output", flags->out, "FRAME.exr", "EXR file to write")->required();
+  add_parsed(*command, "--size", flags->size, parse_size, "of the image; default 1920x1080", "WxH");
+  add_text(*command, "--planes", flags->planes, "A,B", "these planes and depth only: " + enumerate(capture_planes()));
+  add_number(*command, "--peel", flags->peel, {0, 64}, "depth layers to store per pixel, 0 to 64", "N");
   command->add_flag("--peel-light", flags->peel_light,
                     "with --peel: also colour and normal of each layer, for light from hidden surfaces (dp-indirect)");
   add_number(*command, "--stochastic", flags->stochastic, {1, 16},
-             "samples of a stochastic depth map of all surfaces, 1 to 16")
-      ->type_name("S");
+             "samples of a stochastic depth map of all surfaces, 1 to 16", "S");
   add_number(*command, "--alpha", flags->alpha, {0, 1},
-             "share of the samples that a surface is offered to; default 0.2")
-      ->type_name("A");
-  add_number(*command, "--stochastic-seed", flags->stochastic_seed, allowed_seeds, "of its random choices; default 0")
-      ->type_name("N");
+             "share of the samples that a surface is offered to; default 0.2", "A");
+  add_number(*command, "--stochastic-seed", flags->stochastic_seed, allowed_seeds, "of its random choices; default 0",
+             "N");
   add_number(*command, "--outlines", flags->outlines, {1e-15, 1e15},
-             "count per pixel the outlines, that many scene units around the objects, that it is in")
-      ->type_name("EXTENT");
+             "count per pixel the outlines, that many scene units around the objects, that it is in", "EXTENT");
   add_choice(*command, "--outline-method", flags->outline_method, methods_by_name(),
              "how outlines are made; default mitre");
   add_number(*command, "--outline-angle", flags->outline_angle, {0, 90},
-             "degrees between face normals that count as one, 0 to 90; default 1")
-      ->type_name("DEGREES");
-  add_number(*command, "--view2", flags->view2, {-90, 90}, "also a second view, turned by that many degrees, -90 to 90")
-      ->type_name("ANGLE");
+             "degrees between face normals that count as one, 0 to 90; default 1", "DEGREES");
+  add_number(*command, "--view2", flags->view2, {-90, 90}, "also a second view, turned by that many degrees, -90 to 90",
+             "ANGLE");
   add_number(*command, "--stereo", flags->stereo, {0, 1e30},
-             "two views, left and right: eyes that many scene units apart, the camera between")
-      ->type_name("IPD");
+             "two views, left and right: eyes that many scene units apart, the camera between", "IPD");
   add_number(*command, "--convergence", flags->convergence, {1e-30, 1e30},
-             "with --stereo: depth of no disparity; default: parallel eyes")
-      ->type_name("D");
+             "with --stereo: depth of no disparity; default: parallel eyes", "D");
   command->add_flag("--toe-in", flags->toe_in, "with --convergence: turn the eyes, instead of shifting their frusta");
-  command
-      ->add_option("--display", flags->display,
-                   "the views of all optical modules of a light-field display (docs/light-field.md), in its size")
-      ->type_name("FILE.json");
+  add_text(*command, "--display", flags->display, "FILE.json",
+           "the views of all optical modules of a light-field display (docs/light-field.md), in its size");
   command->add_option("--modules", flags->modules, "with --display: these only, by number: 0,5,10-19")
       ->check(accepted_by(parse_modules, "--modules"))  // stays text: the display decides the number of modules
       ->type_name("N,N-N");
   command->add_flag("--separate", flags->separate, "with --display: one file for each module, FRAME.module07.exr");
-  command->add_option("--camera-path", flags->path, "camera JSON with a \"path\": one frame per camera, with motion")
-      ->type_name("FILE");
-  command
-      ->add_option("--shot", flags->shot,
-                   "a moving camera of a built-in scene, of gloam list shots: frames with motion")
-      ->type_name("NAME");
+  add_text(*command, "--camera-path", flags->path, "FILE",
+           "camera JSON with a \"path\": one frame per camera, with motion");
+  add_text(*command, "--shot", flags->shot, "NAME",
+           "a moving camera of a built-in scene, of gloam list shots: frames with motion");
   add_frames(*command, flags->choice);
-  command->add_option("--picture", flags->picture, "also the colour as a picture")->type_name("COLOUR.png");
-  command
-      ->add_option("--sky", flags->sky,
-                   "also the scene's sky, without the sun, as a lat-long map for --environment (axes openexr)")
-      ->type_name("SKY.exr");
+  add_text(*command, "--picture", flags->picture, "COLOUR.png", "also the colour as a picture");
+  add_text(*command, "--sky", flags->sky, "SKY.exr",
+           "also the scene's sky, without the sun, as a lat-long map for --environment (axes openexr)");
   command->add_flag("--half", flags->half, "store bounded planes as half");
   add_compression(*command, flags->compression);
   flags->camera.add_to(*command);

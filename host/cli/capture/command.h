@@ -72,4 +72,7 @@ struct CaptureFigures {
   std::vector<std::string> files;
 };
 
+Json capture_document(const Scene& scene, const CaptureOptions& options, const CaptureFigures& figures);
+void print_capture(const Scene& scene, const CaptureOptions& options, const CaptureFigures& figures);
+
 }  // namespace gloam::cli

@@ -1,8 +1,7 @@
-#include "cli/capture/result.h"
-
 #include <cmath>
 #include <numbers>
 
+#include "cli/capture/command.h"
 #include "gloam/error.h"
 
 namespace gloam::cli {

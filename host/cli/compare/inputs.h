@@ -1,19 +1,17 @@
-// Shared by the forms of `gloam compare`: flags, the choice of planes, and the alignment of images.
+// What the forms of `gloam compare` share: flags and outputs.
 #pragma once
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "cli/flags/options.h"
-#include "compare/plane_pairs.h"
+#include "comparison/shot_files.h"
 
 namespace gloam::cli {
 
-/// Flags of both forms.
-struct CompareFlags {
-  std::string test, reference, picture, frame, plane;
-  std::optional<double> exposure;
+/// Flags of all forms.
+struct CompareFlags : comparison::ComparedFiles {
+  std::string picture;
   FrameFlags frame_flags;
   JsonFlag json;
 
@@ -21,25 +19,9 @@ struct CompareFlags {
   void take_plane_names();
 };
 
-/// The planes that could be compared: the one asked for, else those that both files have, results before inputs.
-std::vector<PlanePair> comparable_planes(const FrameFile& test, const FrameFile& reference, const std::string& asked);
-
-/// The part of a plane inside `to`; all of it if `to` is empty. `from`: the window of the plane.
-Plane cropped(const Plane& plane, const Window& from, const Window& to);
-
-/// Whether a frame covers a window; if the window is empty, whether the frame has the size of `layout`.
-bool covers(const Frame& frame, const Window& window, const Layout& layout);
-
-/// The view of --frame for a view of the test: that of the same name, or the only one.
-std::string view_of(const Frame& frame, const std::string& name);
-
-/// Options for a file other than the test: without choices of channels, which are the test's, and without a choice of views if the
-/// file has one unnamed view.
-ReadOptions options_beside(const ReadOptions& options, const std::string& path);
-
-/// The part of --frame under the images: their window if the frame shows the same display window, all of it (an empty window) if
-/// it has their size. Throws Error for a frame of another size, which cannot be aligned with the images.
-Window window_under(const Frame& extra, const std::string& path, const Frame& test, const Window& window,
-                    const Layout& layout);
+/// The shot of a comparison. Throws UsageError if an output is an input or another output, and Error if one cannot be written. `differences`: of the
+/// flag of that name; empty for none.
+comparison::ComparedShot open_shot(const CompareFlags& flags, const FrameChoice& choice,
+                                   const std::string& differences);
 
 }  // namespace gloam::cli

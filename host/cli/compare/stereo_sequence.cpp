@@ -1,8 +1,7 @@
-#include "cli/compare/stereo_sequence.h"
-
 #include <algorithm>
 
-#include "cli/compare/sequence_files.h"
+#include "cli/compare/stereo.h"
+#include "comparison/shot_files.h"
 #include "gloam/error.h"
 #include "gloam/frame_numbers.h"
 #include "gloam/visualise.h"
@@ -43,15 +42,10 @@ Json stereo_rows_document(const std::vector<StereoRow>& rows, const std::string&
 
 void print_stereo_rows(const std::vector<StereoRow>& rows, const CompareFlags& flags, const std::string& plane) {
   fmt::print("{} of {}: stereo inconsistency of both views\n\n", plane, printable(flags.test));
-  std::vector<std::vector<std::string>> table = {{"frame", "mean", "RMSE", "99 %", "max", "pixels", "rejected"}};
-  for (const auto& [frame, f, document] : rows) {
-    std::vector<std::string> cells = {std::to_string(frame)};
-    for (const double value : {f.mean, f.rmse, f.p99, f.max}) cells.push_back(fmt::format("{:.5f}", value));
-    cells.insert(cells.end(), {std::to_string(f.counted), fmt::format("{:.2f} %", 100 * f.rejected_share())});
-    table.push_back(cells);
-  }
+  std::vector<std::vector<std::string>> table = {stereo_heading("frame")};
+  for (const auto& [frame, figures, document] : rows) table.push_back(stereo_cells(std::to_string(frame), figures));
   print_table(table, 1);
-  if (!flags.picture.empty()) fmt::print("wrote {}\n", printable(flags.picture));
+  if (!flags.picture.empty()) print_written({flags.picture});
   const StereoRow& worst = worst_stereo_row(rows);
   fmt::print("mean over {} frames {:.5f}; worst frame {}: {:.5f}\n", rows.size(), mean_of_stereo(rows), worst.frame,
              worst.figures.mean);
@@ -82,8 +76,7 @@ void check_stereo_flags(const CompareFlags& flags, const StereoFlags& stereo, co
     if (value.empty()) continue;
     throw UsageError("{} {}: shows the two views of one frame; leave it out, or compare one frame", flag, value);
   }
-  if (!flags.frame_flags.view.empty())
-    throw UsageError("--view {}: --stereo needs two views; --views A,B says which", flags.frame_flags.view);
+  check_no_single_view(flags);
   if (!flags.reference.empty() && !FramePattern::is_pattern(flags.reference))
     throw UsageError("REF.exr {}: is one file; give the second eye's frames, such as right.####.exr", flags.reference);
 }
@@ -94,12 +87,11 @@ void compare_stereo_sequence(const CompareFlags& flags, const StereoFlags& stere
                              const CompareSequenceFlags& sequence) {
   check_stereo_flags(flags, stereo, sequence);
   check_plot_name(flags.picture);
-  const ComparedShot shot(flags, sequence.choice);
-  shot.check_outputs("");
+  const comparison::ComparedShot shot = open_shot(flags, sequence.choice, "");
   std::vector<StereoRow> rows;
   std::string plane;
-  for_each_frame(shot, [&](const SequenceFrame& at) {
-    const StereoComparison c = compare_stereo(shot.flags_of(at), stereo, shot.options_of(at));
+  for_each_frame(shot, progress_bar(), [&](const SequenceFrame& at) {
+    const StereoComparison c = compare_stereo(shot.files_of(at), shot.options_of(at), flags.frame_flags, stereo);
     if (rows.empty()) plane = c.plane;
     if (plane != c.plane)
       throw Error("{} is compared, and {} of the first frame; --what PLANE says which", c.plane, plane);

@@ -2,14 +2,17 @@
 #include <algorithm>
 #include <memory>
 
-#include "cli/doctor/child.h"
 #include "cli/flags/options.h"
+#include "doctor/diagnosis.h"
 #include "gloam/error.h"
 #include "run/kept_folders.h"
 #include "run/kernel_cache.h"
 
 namespace gloam::cli {
 namespace {
+
+using doctor::Diagnosis;
+using doctor::TestResult;
 
 struct DoctorFlags {
   std::string device;
@@ -110,7 +113,7 @@ void keep(Diagnosis& diagnosis) {
 }
 
 void run_doctor(const DoctorFlags& flags) {
-  if (flags.child) return examine_device_here(flags.device, flags.again);
+  if (flags.child) return doctor::examine_device_here(flags.device, flags.again);
   check_paths({}, {{"--json", flags.json.file()}});
   const std::vector<DeviceInfo> devices = list_devices(flags.device);
   note(notes_on_cache());
@@ -120,7 +123,7 @@ void run_doctor(const DoctorFlags& flags) {
   std::vector<std::string> failed;
   for (size_t i = 0; i < devices.size(); ++i) {
     int step = 0;
-    Diagnosis diagnosis = diagnose(devices[i], flags.again, [&] {
+    Diagnosis diagnosis = doctor::diagnose(devices[i], flags.again, [&] {
       if (bar) bar(int(i) * steps + std::min(++step, steps), int(devices.size()) * steps);
     });
     keep(diagnosis);
@@ -140,8 +143,7 @@ void add_doctor(CLI::App& app) {
   auto flags = std::make_shared<DoctorFlags>();
   CLI::App* command =
       app.add_subcommand("doctor", "whether devices compute what they should, and how they do it fastest");
-  command->add_option("--device", flags->device, "part of a device's or platform's name; default: all devices")
-      ->type_name("TEXT");
+  add_text(*command, "--device", flags->device, "TEXT", "part of a device's or platform's name; default: all devices");
   command->add_flag("--again", flags->again, "measure anew what an earlier examination measured");
   command->add_flag("--child", flags->child)->group("");
   flags->json.add_to(*command);

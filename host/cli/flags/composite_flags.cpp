@@ -21,18 +21,15 @@ std::array<double, 3> parse_tint(const std::string& text, const std::string& fla
 }  // namespace
 
 void CompositeFlags::add_to(CLI::App& app) {
+  const Heading heading(app, group);
   CLI::Option* composite =
-      app.add_option("--composite", path,
-                     "EXR file to write: colour times AO, or colour plus reflection, scene-linear; the name of --into "
-                     "puts it there")
-          ->type_name("OUT.exr")
-          ->group(group);
+      add_text(app, "--composite", path, "OUT.exr",
+               "EXR file to write: colour times AO, or colour plus reflection, scene-linear; the name of --into "
+               "puts it there");
   add_number(app, "--composite-strength", strength, {0.0, 1000.0}, "of the effect in the composite; default 1")
-      ->group(group)
       ->needs(composite);
-  add_parsed(app, "--tint", tint, parse_tint, "factor on the colour where nothing is open; default 0,0,0: black")
-      ->type_name("R,G,B")
-      ->group(group)
+  add_parsed(app, "--tint", tint, parse_tint, "factor on the colour where nothing is open; default 0,0,0: black",
+             "R,G,B")
       ->needs(composite);
 }
 

@@ -10,13 +10,19 @@
 #include "normalise/normal_axes.h"
 
 namespace gloam::cli {
+namespace {
+
+constexpr const char* reading_heading = "Reading the frame";
+
+}  // namespace
+
 void FrameArguments::add_to(CLI::App& app) {
-  app.add_option("frame", frame, "EXR file")->required()->type_name("FRAME.exr");
-  app.add_option("other_eye", other_eye, "the second eye, where FRAME.exr holds one view and this file the other")
-      ->type_name("RIGHT.exr");
-  app.add_option("--history", history, "what gloam run wrote for the frame before, for techniques that accumulate")
-      ->type_name("PREVIOUS.exr")
-      ->group("Reading the frame");
+  add_text(app, "frame", frame, "FRAME.exr", "EXR file")->required();
+  add_text(app, "other_eye", other_eye, "RIGHT.exr",
+           "the second eye, where FRAME.exr holds one view and this file the other");
+  add_text(app, "--history", history, "PREVIOUS.exr",
+           "what gloam run wrote for the frame before, for techniques that accumulate")
+      ->group(reading_heading);
 }
 
 std::vector<std::string> FrameArguments::files() const {
@@ -36,48 +42,29 @@ FrameFiles FrameArguments::open(const ReadOptions& options) const {
 }
 
 void FrameFlags::add_to(CLI::App& app) {
+  const Heading heading(app, reading_heading);
   constexpr double infinity = std::numeric_limits<double>::infinity(), most_float = std::numeric_limits<float>::max();
-  app.add_option("--camera", camera, "camera JSON; default: the one beside the frame, if any")
-      ->type_name("FILE")
-      ->group("Reading the frame");
-  add_number(app, "--fov", fov, {1, 179}, "horizontal field of view, 1 to 179 degrees, over every other camera")
-      ->type_name("DEG")
-      ->group("Reading the frame");
-  add_choice(app, "--depth", depth, depth_words, "what depth values mean")->group("Reading the frame");
-  add_number(app, "--near", near, {0, infinity}, "near plane, scene units (for ndc and reversed)")
-      ->type_name("Z")
-      ->group("Reading the frame");
-  add_number(app, "--far", far, {0, infinity}, "far plane, scene units; depth there is background")
-      ->type_name("Z")
-      ->group("Reading the frame");
-  add_number(app, "--background", background, {-most_float, most_float, true}, "the depth value that means background")
-      ->type_name("VALUE")
-      ->group("Reading the frame");
-  add_choice(app, "--normal-space", normals.space, normal_space_words, "space of the normals")
-      ->group("Reading the frame");
-  add_choice(app, "--normal-range", normals.range, normal_range_words, "normals from -1 to 1, or from 0 to 1")
-      ->group("Reading the frame");
+  add_text(app, "--camera", camera, "FILE", "camera JSON; default: the one beside the frame, if any");
+  add_number(app, "--fov", fov, {1, 179}, "horizontal field of view, 1 to 179 degrees, over every other camera", "DEG");
+  add_choice(app, "--depth", depth, depth_words, "what depth values mean");
+  add_number(app, "--near", near, {0, infinity}, "near plane, scene units (for ndc and reversed)", "Z");
+  add_number(app, "--far", far, {0, infinity}, "far plane, scene units; depth there is background", "Z");
+  add_number(app, "--background", background, {-most_float, most_float, true}, "the depth value that means background",
+             "VALUE");
+  add_choice(app, "--normal-space", normals.space, normal_space_words, "space of the normals");
+  add_choice(app, "--normal-range", normals.range, normal_range_words, "normals from -1 to 1, or from 0 to 1");
   add_parsed(app, "--normal-axes", normals.axes, parse_normal_axes,
-             "the axis that each component of the normals lies along: x,-y,z has y down; auto")
-      ->type_name("X,Y,Z")
-      ->group("Reading the frame");
-  app.add_option("--plane", planes,
-                 "take a plane from these channels or layer: depth=Layer.Z; none: leave the plane out (repeatable)")
-      ->type_name("PLANE=CHANNELS")
-      ->group("Reading the frame")
+             "the axis that each component of the normals lies along: x,-y,z has y down; auto", "X,Y,Z");
+  add_text(app, "--plane", planes, "PLANE=CHANNELS",
+           "take a plane from these channels or layer: depth=Layer.Z; none: leave the plane out (repeatable)")
       ->expected(1)
       ->take_all();
-  CLI::Option* one =
-      app.add_option("--view", view, "use this view only")->type_name("NAME")->group("Reading the frame");
-  app.add_option("--views", views, "use these views, in this order")
-      ->type_name("A,B")
-      ->group("Reading the frame")
-      ->excludes(one);
+  CLI::Option* one = add_text(app, "--view", view, "NAME", "use this view only");
+  add_text(app, "--views", views, "A,B", "use these views, in this order")->excludes(one);
   app.add_option("--limit-memory", limit_memory,
                  "refuse, before anything is decoded, what would take more; default: what is available")
       ->check(accepted_by(parse_memory, "--limit-memory"))  // stays text, for messages; CLI11's sizes know no 1.5G
-      ->type_name("4G|512M")
-      ->group("Reading the frame");
+      ->type_name("4G|512M");
 }
 
 ReadOptions FrameFlags::read_options() const {
@@ -99,6 +86,24 @@ ReadOptions FrameFlags::read_options() const {
     options.channels[plane.substr(0, equals)] = plane.substr(equals + 1);
   }
   return options;
+}
+
+std::vector<const CLI::Option*> reading_flags(const CLI::App& app) {
+  return app.get_options(
+      [](const CLI::Option* option) { return option->get_group() == reading_heading && option->count() > 0; });
+}
+
+void check_no_reading_flags(const CLI::App& app, const std::vector<std::string>& allowed) {
+  for (const CLI::Option* option : reading_flags(app)) {
+    if (!contains(allowed, option->get_name()))
+      throw UsageError("{}: says how frames are read, and those of a set say it themselves; leave it out",
+                       option->get_name());
+  }
+}
+
+void check_no_frames(const FrameChoice& choice, const std::string& frame) {
+  if (choice.frames)
+    throw UsageError("--frames: is for a shot, and {} is one frame; write its number as in shot.####.exr", frame);
 }
 
 }  // namespace gloam::cli

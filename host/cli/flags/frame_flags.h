@@ -9,6 +9,7 @@
 
 #include "gloam/exr.h"
 #include "gloam/frame_files.h"
+#include "sequence/frame_list.h"
 
 namespace gloam::cli {
 
@@ -26,6 +27,13 @@ struct FrameFlags {
   /// Throws UsageError for malformed planes and views.
   ReadOptions read_options() const;
 };
+
+/// The flags given to a command that say how a frame is read.
+std::vector<const CLI::Option*> reading_flags(const CLI::App& app);
+/// Throws UsageError for such a flag but for those of `allowed`: frames of a set say themselves how they are read.
+void check_no_reading_flags(const CLI::App& app, const std::vector<std::string>& allowed = {});
+/// Throws UsageError for --frames, which is for a shot, with one frame.
+void check_no_frames(const FrameChoice& choice, const std::string& frame);
 
 /// The arguments of a command that takes a frame in one file, or its two eyes in two.
 struct FrameArguments {

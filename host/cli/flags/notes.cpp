@@ -35,6 +35,11 @@ std::vector<std::string> notes_so_far() {
   return kept_notes;
 }
 
+nlohmann::ordered_json noted(nlohmann::ordered_json document) {
+  if (document.is_object() && !document.contains("notes")) document["notes"] = notes_so_far();
+  return document;
+}
+
 void print_notes() {
   if (quiet) return;
   for (const std::string& note : notes_so_far()) {

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ bool is_quiet();
 void note(const std::vector<std::string>& notes);
 /// The notes, without repetitions.
 std::vector<std::string> notes_so_far();
+/// An object with the notes so far as "notes", unless it has some.
+nlohmann::ordered_json noted(nlohmann::ordered_json document);
 /// Prints the notes on standard error, one line each; none with --quiet.
 void print_notes();
 

@@ -12,7 +12,6 @@
 #include "base/lists.h"
 #include "base/statistics.h"
 #include "camera/camera_search.h"
-#include "cli/flags/noted.h"
 #include "gloam/error.h"
 #include "sequence/plan_files.h"
 #include "technique/default_technique.h"
@@ -96,9 +95,8 @@ void add_compression(CLI::App& app, std::string& name) {
 }
 
 void JsonFlag::add_to(CLI::App& app) {
-  app.add_option("--json", path,
-                 "write the figures as JSON to this file; - is standard output, and nothing else goes there")
-      ->type_name("FILE|-")
+  add_text(app, "--json", path, "FILE|-",
+           "write the figures as JSON to this file; - is standard output, and nothing else goes there")
       ->group("Writing");
 }
 
@@ -184,27 +182,13 @@ void check_picture_name(const std::string& path, const std::string& flag) {
   throw UsageError("{} {}: the picture is a PNG; name it with .png", flag, path);
 }
 
-/// A view's name comes from a file. Characters that mean a folder in a path or a command on a terminal, or that a file system does
-/// not accept, are written as their numbers, so that no two views share a name.
-static std::string as_file_name(const std::string& view) {
-  std::string name;
-  for (const char c : view) {
-    const unsigned char byte = static_cast<unsigned char>(c);
-    const bool is_plain = std::isalnum(byte) || byte >= 0x80 || c == '_' || c == '-' || c == '.' || c == ' ';
-    name += is_plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
-  }
-  return name;
-}
-
-std::filesystem::path picture_path(const std::string& path, const std::string& view, bool several) {
-  if (!several) return path;
-  std::filesystem::path with_view = path;
-  return with_view.replace_extension(as_file_name(view) + std::filesystem::path(path).extension().string());
-}
-
 void check_pictures(const NamedPath& picture, const std::vector<std::string>& views) {
   if (picture.second.empty() || views.size() < 2) return;
   for (const std::string& view : views) writes_file(picture.first, picture_path(picture.second, view, true));
+}
+
+void print_written(const std::vector<std::string>& files) {
+  for (const std::string& file : files) fmt::print("wrote {}\n", printable(file));
 }
 
 void print_table(const std::vector<std::vector<std::string>>& rows, size_t first_number) {

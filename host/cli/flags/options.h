@@ -16,6 +16,7 @@
 #include "exr/holdings.h"
 #include "flags/typed.h"
 #include "gloam/error.h"
+#include "picture/picture_path.h"
 
 namespace gloam::cli {
 
@@ -69,13 +70,14 @@ PlanRequest going_on(PlanRequest request, const FrameFiles& files, bool temporal
 void check_frame_name(const std::string& path, const std::string& flag);
 /// Throws UsageError for a picture that does not end in .png; an empty name is allowed.
 void check_picture_name(const std::string& path, const std::string& flag);
-/// picture.png, or picture.left.png for one of several views.
-std::filesystem::path picture_path(const std::string& path, const std::string& view, bool several);
 /// Tells the ledger of files of the pictures of all views, once these are known: `check_paths` has the name on the command line alone.
 void check_pictures(const NamedPath& picture, const std::vector<std::string>& views);
 
 /// Rows of text in aligned columns; the first row is the heading. Columns from `first_number` on are aligned right.
 void print_table(const std::vector<std::vector<std::string>>& rows, size_t first_number);
+
+/// Prints the names of files that were written, one a line.
+void print_written(const std::vector<std::string>& files);
 
 /// name=value items as pairs; throws UsageError for items of another form.
 Settings parse_settings(const std::vector<std::string>& items, const std::string& flag);

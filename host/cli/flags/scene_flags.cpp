@@ -23,8 +23,8 @@ glm::dvec3 parse_point(const std::string& text, const std::string& flag) {
 }
 
 void SceneFlags::add_settings_to(CLI::App& app) {
-  app.add_option("--set", settings, "set a parameter of a built-in scene; --faces 50000 is short for it (repeatable)")
-      ->type_name("NAME=VALUE")
+  add_text(app, "--set", settings, "NAME=VALUE",
+           "set a parameter of a built-in scene; --faces 50000 is short for it (repeatable)")
       ->expected(1)
       ->take_all();
 }
@@ -46,16 +46,12 @@ Settings SceneFlags::take_dotted_settings() {
 }
 
 void SceneCameraFlags::add_to(CLI::App& app) {
-  app.add_option("--camera", camera, "a camera of the scene by its name, or a camera JSON; default: the scene's first")
-      ->type_name("NAME|FILE")
-      ->group("Camera");
-  add_parsed(app, "--eye", eye, parse_point, "place of the camera, scene units; with --target")
-      ->type_name("X,Y,Z")
-      ->group("Camera");
-  add_parsed(app, "--target", target, parse_point, "what it looks at")->type_name("X,Y,Z")->group("Camera");
-  add_number(app, "--fov", fov, {1, 179}, "horizontal field of view in degrees, over the camera's own")
-      ->type_name("DEG")
-      ->group("Camera");
+  const Heading heading(app, "Camera");
+  add_text(app, "--camera", camera, "NAME|FILE",
+           "a camera of the scene by its name, or a camera JSON; default: the scene's first");
+  add_parsed(app, "--eye", eye, parse_point, "place of the camera, scene units; with --target", "X,Y,Z");
+  add_parsed(app, "--target", target, parse_point, "what it looks at", "X,Y,Z");
+  add_number(app, "--fov", fov, {1, 179}, "horizontal field of view in degrees, over the camera's own", "DEG");
 }
 
 std::vector<std::pair<std::string, Camera>> SceneCameraFlags::cameras(const Scene& scene, int width, int height) const {

@@ -14,8 +14,7 @@ constexpr const char* group = "Shots";
 void add_chunks(CLI::App& app, ShotFlags& flags) {
   add_chunk_flags(app, flags.chunks, flags.print, "a shot", group);
   add_number(app, "--warm-up", flags.warm_up, {0, 1000000},
-             "with --temporal: this many of the first frames are computed for those that follow, and not written")
-      ->type_name("N")
+             "with --temporal: this many of the first frames are computed for those that follow, and not written", "N")
       ->group(group);
 }
 
@@ -23,8 +22,7 @@ void add_chunks(CLI::App& app, ShotFlags& flags) {
 
 void add_frames(CLI::App& app, FrameChoice& choice) {
   add_parsed(app, "--frames", choice.frames, parse_frame_numbers,
-             "frames of a shot: 1001-1100, 1-99x2 or 1,5,9-12; default: all")
-      ->type_name("A-B")
+             "frames of a shot: 1001-1100, 1-99x2 or 1,5,9-12; default: all", "A-B")
       ->group(group);
 }
 
@@ -46,16 +44,16 @@ void add_resume(CLI::App& app, bool& resume) {
 }
 
 void ShotFlags::add_to(CLI::App& app, bool divides) {
+  const Heading heading(app, group);
   add_frames(app, choice);
   add_missing(app, choice);
   add_resume(app, resume);
-  app.add_option("--memory", memory, "most memory for a shot: it decides how many frames are worked on at once")
-      ->check(accepted_by(parse_memory, "--memory"))
-      ->type_name("4G|512M")
-      ->group(group);
+  add_text(app, "--memory", memory, "4G|512M",
+           "most memory for a shot: it decides how many frames are worked on at once")
+      ->check(accepted_by(parse_memory, "--memory"));
   if (divides) add_chunks(app, *this);
-  app.add_flag("--keep-depth", keep_depth, "also write a shot's depth, and of two eyes normals")->group(group);
-  app.add_flag("--float", as_float, "write the AO of a shot and of --into as float instead of half")->group(group);
+  app.add_flag("--keep-depth", keep_depth, "also write a shot's depth, and of two eyes normals");
+  app.add_flag("--float", as_float, "write the AO of a shot and of --into as float instead of half");
 }
 
 std::string ShotFlags::any(bool with_float) const {

@@ -30,52 +30,37 @@ std::string extras_in_words() {
 }  // namespace
 
 void VariantFlags::add_to(CLI::App& app) {
+  const Heading heading(app, "Technique");
   add_choice(
       app, "--layers", layers, layers_words,
-      "which depths a technique reads: the one that is seen, stochastic or peeled layers; default: as its name says")
-      ->group("Technique");
+      "which depths a technique reads: the one that is seen, stochastic or peeled layers; default: as its name says");
   add_choice(app, "--eyes", both_eyes, eyes_words,
-             "both: for two views that agree on what both of them see; default: as the technique's name says")
-      ->group("Technique");
+             "both: for two views that agree on what both of them see; default: as the technique's name says");
 }
 
 void TechniqueFlags::add_to(CLI::App& app, bool with_mask) {
-  app.add_option("--set", settings, "set a parameter; --radius 0.3 is short for --set radius=0.3 (repeatable)")
-      ->type_name("NAME=VALUE")
-      ->group("Technique")
+  const Heading heading(app, "Technique");
+  add_text(app, "--set", settings, "NAME=VALUE",
+           "set a parameter; --radius 0.3 is short for --set radius=0.3 (repeatable)")
       ->expected(1)
       ->take_all();
-  app.add_option("--preset", preset, "low, medium, high or ultra, where the technique has presets")
-      ->type_name("NAME")
-      ->group("Technique");
-  app.add_option("--filter", filter, "the technique that follows, or none; default: what the technique names")
-      ->type_name("NAME")
-      ->group("Technique");
-  app.add_option("--with", with, "planes to make beside the usual ones: " + extras_in_words())
-      ->type_name("A,B")
-      ->group("Technique");
+  add_text(app, "--preset", preset, "NAME", "low, medium, high or ultra, where the technique has presets");
+  add_text(app, "--filter", filter, "NAME", "the technique that follows, or none; default: what the technique names");
+  add_text(app, "--with", with, "A,B", "planes to make beside the usual ones: " + extras_in_words());
   add_choice(app, "--resolution", resolution, resolution_words,
-             "estimate and filter every pixel, every 2nd or every 4th each way, then upsample")
-      ->group("Technique");
-  app.add_option("--adaptive", adaptive,
-                 "preset for tiles where AO hardly varies, by a base pass: --preset ultra --adaptive medium")
-      ->type_name("NAME")
-      ->group("Technique");
+             "estimate and filter every pixel, every 2nd or every 4th each way, then upsample");
+  add_text(app, "--adaptive", adaptive, "NAME",
+           "preset for tiles where AO hardly varies, by a base pass: --preset ultra --adaptive medium");
   if (!with_mask) return;
-  app.add_option("--only", only,
-                 "estimate and filter only where this is above 0, and leave the rest open: a plane of the frame, or a "
-                 "technique that makes a mask, such as corner-mask")
-      ->type_name("MASK")
-      ->group("Technique");
+  add_text(app, "--only", only, "MASK",
+           "estimate and filter only where this is above 0, and leave the rest open: a plane of the frame, or a "
+           "technique that makes a mask, such as corner-mask");
   app.add_flag("--temporal", temporal,
                "AO and reflections become means over the frames of a sequence that showed each surface; a frame by "
                "itself goes on "
-               "from --history")
-      ->group("Technique");
-  app.add_option("--elsewhere", elsewhere,
-                 "technique that estimates what --only leaves out: run sd-gtao --only hidden-mask --elsewhere gtao")
-      ->type_name("TECHNIQUE")
-      ->group("Technique");
+               "from --history");
+  add_text(app, "--elsewhere", elsewhere, "TECHNIQUE",
+           "technique that estimates what --only leaves out: run sd-gtao --only hidden-mask --elsewhere gtao");
   variant.add_to(app);
 }
 
@@ -91,9 +76,7 @@ PlanRequest TechniqueFlags::request(const std::vector<std::string>& outputs) con
 }
 
 void DeviceFlags::add_to(CLI::App& app, const std::string& group) {
-  app.add_option("--device", device, "part of a device's or platform's name (gloam list devices)")
-      ->type_name("TEXT")
-      ->group(group);
+  add_text(app, "--device", device, "TEXT", "part of a device's or platform's name (gloam list devices)")->group(group);
   app.add_flag("--no-tuning", no_tuning, "lanes and groups as for any device of its kind, not as gloam doctor measured")
       ->group(group);
 }
@@ -109,18 +92,14 @@ std::string DeviceFlags::as_text() const {
 }
 
 void RunFlags::add_to(CLI::App& app) {
+  const Heading heading(app, "Device");
   DeviceFlags::add_to(app, "Device");
-  add_choice(app, "--lanes", lanes, {{"auto", 0}, {"1", 1}, {"4", 4}, {"8", 8}, {"16", 16}}, "pixels per work-item")
-      ->group("Device");
-  add_choice(app, "--math", math, math_words, "precise: the same bits at every lane width; default fast")
-      ->group("Device");
-  add_choice(app, "--real", real, real_words, "what kernels compute in; default float")->group("Device");
-  add_number(app, "--seed", seed, allowed_seeds, "of the random numbers; default: 0, or one more than --history had")
-      ->type_name("N")
-      ->group("Device");
-  add_number(app, "--repeat", repeat, {1, 10000}, "timed runs; more than one: after a warm-up")
-      ->type_name("N")
-      ->group("Device");
+  add_choice(app, "--lanes", lanes, {{"auto", 0}, {"1", 1}, {"4", 4}, {"8", 8}, {"16", 16}}, "pixels per work-item");
+  add_choice(app, "--math", math, math_words, "precise: the same bits at every lane width; default fast");
+  add_choice(app, "--real", real, real_words, "what kernels compute in; default float");
+  add_number(app, "--seed", seed, allowed_seeds, "of the random numbers; default: 0, or one more than --history had",
+             "N");
+  add_number(app, "--repeat", repeat, {1, 10000}, "timed runs; more than one: after a warm-up", "N");
 }
 
 RunOptions RunFlags::run_options() const {

@@ -7,10 +7,10 @@
 #include "cli/flags/options.h"
 #include "cli/flags/radius.h"
 #include "cli/flags/shot_flags.h"
-#include "cli/info/cameras.h"
-#include "cli/info/plane_facts.h"
 #include "cli/info/shot.h"
 #include "cli/info/views.h"
+#include "exr/camera_facts.h"
+#include "exr/plane_facts.h"
 #include "gloam/error.h"
 #include "gloam/frame_pattern.h"
 #include "gloam/planes.h"
@@ -210,10 +210,6 @@ void check_outputs(const InfoFlags& flags) {
   check_paths({{"the frame", flags.frame}, {"--camera", flags.frame_flags.camera}}, outputs);
 }
 
-void print_written(const std::vector<std::string>& pictures) {
-  for (const std::string& picture : pictures) fmt::print("wrote {}\n", printable(picture));
-}
-
 void print_lines_for_blender(const std::vector<std::string>& lines) {
   if (lines.empty()) return;
   fmt::print(
@@ -264,7 +260,7 @@ void describe(const InfoFlags& flags, std::vector<std::string> pictures) {
                    {"lacks", abilities.lacks},
                    {"unread", unread_channels(file)},
                    {"memory_bytes", memory}};
-  add_cameras(file, flags.frame_flags, document);
+  add_cameras(file, options, document);
   const std::vector<std::string> for_blender = lines_for_blender(file);
   if (!for_blender.empty()) document["camera_lines"] = for_blender;
   const Radius suggested = default_radius(frame, stated_radius(file));
@@ -291,8 +287,7 @@ void info_on_shot(const InfoFlags& flags) {
 
 void info_command(const InfoFlags& flags) {
   if (FramePattern::is_pattern(flags.frame)) return info_on_shot(flags);
-  if (flags.choice.frames)
-    throw UsageError("--frames: is for a shot, and {} is one frame; write its number as in shot.####.exr", flags.frame);
+  check_no_frames(flags.choice, flags.frame);
   check_outputs(flags);
   const std::vector<std::string> pictures = write_view_pictures(flags.frame, flags.views, flags.frame_flags);
   if (flags.is_pictures_only())
@@ -306,10 +301,8 @@ void info_command(const InfoFlags& flags) {
 void add_info(CLI::App& app) {
   auto flags = std::make_shared<InfoFlags>();
   CLI::App* command = app.add_subcommand("info", "what a frame holds, what is assumed, what can run on it");
-  command->add_option("frame", flags->frame, "EXR file, or those of a shot: 'shot.####.exr'")
-      ->required()
-      ->type_name("FRAME.exr");
-  command->add_option("--picture", flags->picture, "also all planes as a contact sheet")->type_name("PLANES.png");
+  add_text(*command, "frame", flags->frame, "FRAME.exr", "EXR file, or those of a shot: 'shot.####.exr'")->required();
+  add_text(*command, "--picture", flags->picture, "PLANES.png", "also all planes as a contact sheet");
   command->add_flag("--lacks", flags->lacks, "what each technique lacks, one a line");
   flags->views.add_to(*command);
   add_frames(*command, flags->choice);

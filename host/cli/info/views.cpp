@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cli/compare/inputs.h"
+#include "compare/plane_pairs.h"
 #include "gloam/error.h"
 #include "gloam/visualise.h"
 
@@ -60,13 +60,12 @@ Drawing read_drawing(FrameFile& file, const std::string& asked) {
 
 void ViewPictureFlags::add_to(CLI::App& app) {
   const auto option = [&](const char* name, std::string& value, const char* help, const char* type) {
-    app.add_option(name, value, help)->type_name(type)->group("One plane of all views");
+    add_text(app, name, value, type, help)->group("One plane of all views");
   };
   option("--sheet", sheet, "a plane of every view as small pictures; then nothing else is read or said", "VIEWS.png");
   option("--scan-line", scan_line,
          "a row of every view, one below the other: an epipolar image of cameras side by side", "LINE.png");
-  add_number(app, "--row", row, {0, 65535}, "which row --scan-line shows, 0 on top; default: the middle")
-      ->type_name("N")
+  add_number(app, "--row", row, {0, 65535}, "which row --scan-line shows, 0 on top; default: the middle", "N")
       ->group("One plane of all views");
   option("--what", what, "which plane; default: the first result, else color, else normal, else depth", "PLANE");
 }

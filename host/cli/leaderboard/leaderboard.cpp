@@ -50,17 +50,13 @@ void add_leaderboard(CLI::App& app) {
   auto flags = std::make_shared<LeaderboardCommand>();
   CLI::App* command =
       app.add_subcommand("leaderboard", "methods by error, time and more, from the result files of a folder");
-  command
-      ->add_option("folder", flags->folder,
-                   "folder of files that gloam bench, gloam score and gloam stress --json wrote, and of "
-                   "folders with a bench.json each")
-      ->required()
-      ->type_name("FOLDER");
-  command->add_option("-o,--output", flags->output, "page to write; default: FOLDER/leaderboard.html")
-      ->type_name("PAGE.html");
+  add_text(*command, "folder", flags->folder, "FOLDER",
+           "folder of files that gloam bench, gloam score and gloam stress --json wrote, and of "
+           "folders with a bench.json each")
+      ->required();
+  add_text(*command, "-o,--output", flags->output, "PAGE.html", "page to write; default: FOLDER/leaderboard.html");
   add_number(*command, "--picture-width", flags->picture_width, {0, 65536},
-             "reduce wider pictures to this; 0: as stored; default: 480")
-      ->type_name("PIXELS");
+             "reduce wider pictures to this; 0: as stored; default: 480", "PIXELS");
   add_choice(*command, "--pictures", flags->shown, shown_pictures,
              "which pictures the page holds; plain (the default): without variants");
   flags->json.add_to(*command);

@@ -1,6 +1,5 @@
-#include "cli/list/kernel.h"
-
 #include "base/lists.h"
+#include "cli/list/techniques.h"
 #include "gloam/error.h"
 #include "gloam/plan.h"
 #include "gloam/planes.h"

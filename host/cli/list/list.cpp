@@ -2,7 +2,6 @@
 #include <memory>
 
 #include "cli/flags/options.h"
-#include "cli/list/kernel.h"
 #include "cli/list/techniques.h"
 #include "gloam/device.h"
 #include "gloam/error.h"
@@ -144,13 +143,11 @@ void add_list(CLI::App& app) {
   auto flags = std::make_shared<Flags>();
   CLI::App* command =
       app.add_subcommand("list", "what there is: techniques, devices, metrics, scenes, their shots or hard cases");
-  auto* what = command->add_option("what", flags->what, "what is listed")->type_name(type_of_words(listed));
-  command->add_option("name", flags->name, "a technique: all about it")->type_name("NAME");
+  auto* what = add_text(*command, "what", flags->what, type_of_words(listed), "what is listed");
+  add_text(*command, "name", flags->name, "NAME", "a technique: all about it");
   command->add_flag("--markdown", flags->markdown, "techniques as docs/techniques.md has them");
-  command
-      ->add_option("--kernel", flags->kernel,
-                   "instead: the text that the compiler gets for a pass, by its name in gloam plan")
-      ->type_name("TECHNIQUE/PASS")
+  add_text(*command, "--kernel", flags->kernel, "TECHNIQUE/PASS",
+           "instead: the text that the compiler gets for a pass, by its name in gloam plan")
       ->excludes(what);
   flags->json.add_to(*command);
   command->footer(

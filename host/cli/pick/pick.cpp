@@ -1,4 +1,6 @@
 // gloam pick FRAME.exr --budget 20ms | --error 0.02: the setting to use
+#include "choose/pick.h"
+
 #include <unistd.h>
 
 #include <algorithm>
@@ -7,12 +9,14 @@
 #include <map>
 #include <memory>
 
+#include "base/statistics.h"
 #include "base/temporary_folder.h"
 #include "choose/document.h"
+#include "choose/shot.h"
+#include "cli/bench/sequence.h"
 #include "cli/bench/subjects.h"
 #include "cli/flags/shot_flags.h"
 #include "cli/flags/time_budget.h"
-#include "cli/pick/shot.h"
 #include "gloam/error.h"
 #include "measure/effects.h"
 
@@ -51,11 +55,10 @@ PickOptions options_of(const PickCommand& flags) {
       .budget = flags.budget, .error = flags.error, .by = flags.by, .rounds = flags.rounds, .progress = show_status};
 }
 
-/// The given flags for reading the frame.
-std::string reading_flags(const CLI::App& app) {
+/// The given flags for reading the frame, as text.
+std::string reading_text(const CLI::App& app) {
   std::string text;
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->get_group() != "Reading the frame") continue;
+  for (const CLI::Option* option : reading_flags(app)) {
     for (const std::string& value : option->results()) text += " " + option->get_name() + " " + quoted_for_shell(value);
   }
   return text;
@@ -71,7 +74,7 @@ std::string run_line(const PickCommand& flags, const Variation& v) {
   if (radius.empty()) radius = radius_parameter(source_of(*v.technique).parameters);
   if (!radius.empty()) line += fmt::format(" --{} {}", radius, float(v.radius));
   if (v.resolution > 1) line += " --resolution " + v.variant;
-  return line + flags.as_text() + reading_flags(*flags.app);
+  return line + flags.as_text() + reading_text(*flags.app);
 }
 
 /// "medium and high of gtao: low takes 31 ms already; the time was over for 12 settings (--time 5m, --all)".
@@ -115,7 +118,38 @@ SceneOptions truths_in(const std::filesystem::path& folder, const PickCommand& f
   return scene;
 }
 
+constexpr size_t most_rows = 12;
+
+Json entry_of(const SequenceRow& row) {
+  return {{"technique", row.variation.technique->name},
+          {"preset", row.variation.name()},
+          {"temporal", row.variation.temporal},
+          {"ms", median(row.ms)},
+          {"rmse", row.rmse},
+          {"ssim", row.ssim},
+          {"flicker", row.flicker.flicker() ? Json(*row.flicker.flicker()) : Json(nullptr)}};
+}
+
+void print(const MeasuredShot& shot, const PickOptions& options, const DeviceInfo& device) {
+  std::vector<std::vector<std::string>> table = {{"", "technique", "preset", "", "ms", "RMSE", "SSIM", "flicker"}};
+  const std::vector<SequenceRow>& rows = shot.measured.rows;
+  for (size_t i = 0; i < std::min(rows.size(), most_rows); ++i) {
+    const std::optional<double> flicker = rows[i].flicker.flicker();
+    table.push_back({i == 0 ? ">" : "", rows[i].variation.technique->name, rows[i].variation.name(),
+                     rows[i].variation.temporal ? "temporal" : "", fmt::format("{:.2f}", median(rows[i].ms)),
+                     fmt::format("{:.4f}", rows[i].rmse), fmt::format("{:.4f}", rows[i].ssim),
+                     flicker ? fmt::format("{:.4f}", *flicker) : "-"});
+  }
+  print_table(table, 4);
+  fmt::print("{} of {} settings, over {} frames; {}; ms: kernels of one frame; {} decides (--by)\n", table.size() - 1,
+             rows.size(), shot.sequence.frames.size(), printable(device.name), name_of(options.by));
+}
+
+/// Measures all presets of the techniques on the frames, each alone and over time, and prints the most accurate (or the calmest) within
+/// the budget, or the cheapest within the error. Throws Error that names the nearest miss if nothing is within the bound.
 void pick_shot(const PickCommand& flags, const PickOptions& options, const std::vector<Skipped>& left_out) {
+  if (options.by == PickBy::flip)
+    throw UsageError("--by flip: is measured on one frame; of a shot, --by takes rmse, ssim and flicker");
   const TemporaryFolder scratch("pick");
   const SceneOptions scene = truths_in(scratch.path(), flags);
   Device device = flags.open();
@@ -125,8 +159,27 @@ void pick_shot(const PickCommand& flags, const PickOptions& options, const std::
                                     .choice = flags.choice,
                                     .frame_flags = flags.frame_flags,
                                     .names_techniques = !flags.techniques.empty()};
-  pick_on_shot(sequence, options, scene, left_out, device, flags.json,
-               [&](const Variation& v) { return run_line(flags, v); });
+  check(sequence);
+  MeasureOptions measuring;
+  measuring.techniques = options.techniques;
+  measuring.progress = options.progress;
+  MeasuredShot shot = measure_own_shot(sequence, measuring, scene, left_out, device, {{"--json", flags.json.file()}});
+  std::vector<SequenceRow>& rows = shot.measured.rows;
+  rank(rows, options);
+  const std::string command = run_line(flags, rows.front().variation);
+  Json document = {{"command", command}};
+  document.update(entry_of(rows.front()));
+  document["device"] = device.info().name;
+  document["by"] = word_for(options.by, pick_figures);
+  document["settings"] = Json::array();
+  for (const SequenceRow& row : rows) document["settings"].push_back(entry_of(row));
+  document["skipped"] = Json::array();
+  for (const Skipped& s : shot.measured.skipped)
+    document["skipped"].push_back({{"technique", s.technique}, {"preset", s.preset}, {"why", s.why}});
+  flags.json.write(document);
+  if (flags.json.only_json()) return;
+  print(shot, options, device.info());
+  fmt::print("{}\n", printable(command));
 }
 
 void pick_command(const PickCommand& flags) {
@@ -139,7 +192,7 @@ void pick_command(const PickCommand& flags) {
   if (is_shot && flags.app->get_option("--time")->count() > 0)
     throw UsageError("--time: of a shot all settings are tried; leave it out, or name fewer --techniques or --frames");
   if (is_shot) return pick_shot(flags, options, left_out);
-  if (flags.choice.frames) throw UsageError("--frames: is for a shot, and {} is one frame", flags.frame);
+  check_no_frames(flags.choice, flags.frame);
   if (options.by == PickBy::flicker)
     throw UsageError("--by flicker: is of a shot, and {} is one frame; write its number as in shot.####.exr",
                      flags.frame);
@@ -176,41 +229,34 @@ void add_pick(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "pick", "the most accurate setting within a time on this device, or the cheapest within an error");
   flags->app = command;
-  command->add_option("frame", flags->frame, "EXR file")->required()->type_name("FRAME.exr");
+  add_text(*command, "frame", flags->frame, "FRAME.exr", "EXR file")->required();
   add_frames(*command, flags->choice);
-  add_parsed(*command, "--budget", flags->budget, parse_budget, "time for the whole of the effect, its filter included")
-      ->type_name("20ms");
+  add_parsed(*command, "--budget", flags->budget, parse_budget, "time for the whole of the effect, its filter included",
+             "20ms");
   add_number(*command, "--error", flags->error, {0, 1},
-             "RMSE to the truth; with --by ssim 1 - SSIM, with --by flip FLIP")
-      ->type_name("ERROR");
+             "RMSE to the truth; with --by ssim 1 - SSIM, with --by flip FLIP", "ERROR");
   add_choice(*command, "--by", flags->by, pick_figures,
              "what decides which image is nearer; default rmse; ssim minds noise and lost edges, flip what an eye "
              "sees, flicker, of a "
              "shot, what moves without reason");
-  command
-      ->add_option("--truth", flags->truths,
-                   "ambient occlusion, or another effect, as gloam reference makes it, of all views, or once for each "
-                   "view (REF_left.exr, "
-                   "REF_right.exr); default: traced where the frame shows a built-in scene, else a converged estimate")
+  add_text(*command, "--truth", flags->truths, "REF.exr",
+           "ambient occlusion, or another effect, as gloam reference makes it, of all views, or once for each "
+           "view (REF_left.exr, "
+           "REF_right.exr); default: traced where the frame shows a built-in scene, else a converged estimate")
       ->expected(1)
-      ->take_all()
-      ->type_name("REF.exr");
-  command
-      ->add_option("--techniques", flags->techniques,
-                   "these only; default: all that make the truth's effect of every view, without a truth ao")
-      ->type_name("A,B");
+      ->take_all();
+  add_text(*command, "--techniques", flags->techniques, "A,B",
+           "these only; default: all that make the truth's effect of every view, without a truth ao");
   flags->variant.add_to(*command);
   add_number(*command, "--radius", flags->radius, allowed_radii,
-             "scene units; default: the truth's, else the scene's own, else made from the frame")
-      ->type_name("R");
-  add_number(*command, "--rays", flags->rays, allowed_rays, "per pixel, for a truth that is traced; default 256")
-      ->type_name("N");
-  add_number(*command, "--rounds", flags->rounds, allowed_rounds, "each times every finalist once, in turn; default 9")
-      ->type_name("N");
+             "scene units; default: the truth's, else the scene's own, else made from the frame", "R");
+  add_number(*command, "--rays", flags->rays, allowed_rays, "per pixel, for a truth that is traced; default 256", "N");
+  add_number(*command, "--rounds", flags->rounds, allowed_rounds, "each times every finalist once, in turn; default 9",
+             "N");
   CLI::Option* time = add_parsed(*command, "--time", flags->time, parse_time,
                                  "how long reading the frame, trying settings, the likeliest first, and timing the "
-                                 "best few in turn may take; tracing a truth comes on top; default 1m")
-                          ->type_name("1m");
+                                 "best few in turn may take; tracing a truth comes on top; default 1m",
+                                 "1m");
   command->add_flag("--all", flags->all, "try every setting, however long it takes; of a shot always")->excludes(time);
   flags->DeviceFlags::add_to(*command);
   flags->frame_flags.add_to(*command);

@@ -45,9 +45,8 @@ void add_plan(CLI::App& app) {
   };
   auto flags = std::make_shared<Flags>();
   CLI::App* command = app.add_subcommand("plan", "show what a run would read, compile and compute (needs no device)");
-  command->add_option("outputs", flags->outputs, "planes or techniques, separated by commas")
-      ->required()
-      ->type_name("OUTPUT[,OUTPUT]");
+  add_text(*command, "outputs", flags->outputs, "OUTPUT[,OUTPUT]", "planes or techniques, separated by commas")
+      ->required();
   flags->frame.add_to(*command);
   flags->technique.add_to(*command);
   flags->frame_flags.add_to(*command);

@@ -6,7 +6,6 @@
 #include "cli/flags/radius.h"
 #include "cli/flags/shot_flags.h"
 #include "cli/reference/job.h"
-#include "cli/reference/shot.h"
 #include "gloam/error.h"
 #include "gloam/frame_pattern.h"
 #include "gloam/scene/bounces_reference.h"
@@ -127,32 +126,28 @@ glm::dvec3 parse_direction(const std::string& text, const std::string& flag) {
 /// Flags of single kinds.
 void add_kind_flags(CLI::App& command, ReferenceRequest& request) {
   add_number(command, "--bounces", request.bounces, {0, most_bounces},
-             "of bounces: reflections after which a path ends; default 128")
-      ->type_name("N");
+             "of bounces: reflections after which a path ends; default 128", "N");
   add_number(
       command, "--length", request.length, {allowed_radii.least, allowed_radii.most, true},
       "of contact: reach of an occluder, scene units, or inf; default: the scene's AO radius, else made from the "
-      "frame")
-      ->type_name("L");
+      "frame",
+      "L");
   add_parsed(command, "--light-direction", request.light_direction, parse_direction,
-             "of contact: towards the light, in the world; default: the scene's sun")
-      ->type_name("X,Y,Z");
-  add_parsed(command, "--light-position", request.light_position, parse_point, "of contact: the light, scene units")
-      ->type_name("X,Y,Z");
+             "of contact: towards the light, in the world; default: the scene's sun", "X,Y,Z");
+  add_parsed(command, "--light-position", request.light_position, parse_point, "of contact: the light, scene units",
+             "X,Y,Z");
   add_number(command, "--light-angle", request.light_angle, {0, most_light_angle},
-             "of contact: angular radius of the light's disc; default 0, a point")
-      ->type_name("DEGREES");
+             "of contact: angular radius of the light's disc; default 0, a point", "DEGREES");
   add_color_holds(command, request.color_holds, "of composite: ");
   add_ambient(command, request.ambient, "of composite: ");
-  command.add_option("--environment", request.environment, "of environment and composite: the light, a lat-long map")
-      ->type_name("FILE.exr");
+  add_text(command, "--environment", request.environment, "FILE.exr",
+           "of environment and composite: the light, a lat-long map");
   add_choice(command, "--environment-axes", request.environment_axes, environment_axes(),
              "of environment and composite: how the world lies in the map; openexr (default): +y is up and its middle "
              "looks along "
              "+z; blender: +z is up and its middle looks along +x");
   add_number(command, "--environment-turn", request.environment_turn, {-360, 360},
-             "of environment and composite: turns it about the up axis, counter-clockwise seen from above")
-      ->type_name("DEGREES");
+             "of environment and composite: turns it about the up axis, counter-clockwise seen from above", "DEGREES");
 }
 
 }  // namespace
@@ -161,34 +156,23 @@ void add_reference(CLI::App& app) {
   auto flags = std::make_shared<ReferenceCommand>();
   ReferenceRequest& request = flags->request;
   CLI::App* command = app.add_subcommand("reference", "ray-traced truth for a frame whose scene is at hand");
-  command->add_option("what", request.what, "what is traced")->required()->type_name(type_of_words(reference_names()));
-  command
-      ->add_option(
-          "frame", flags->frame,
-          "EXR file with depth, a camera and perhaps normals, roughness and reflectance; or a shot, 'shot.####.exr'")
-      ->required()
-      ->type_name("FRAME.exr");
-  command
-      ->add_option("--scene", flags->scene.scene,
-                   "OBJ or glTF file, or a built-in name; default: the built-in one that the frame names")
-      ->type_name("SCENE");
-  command->add_option("-o,--output", flags->out, "EXR file to write, of a shot truth.####.exr")
-      ->required()
-      ->type_name("REF.exr");
+  add_text(*command, "what", request.what, type_of_words(reference_names()), "what is traced")->required();
+  add_text(*command, "frame", flags->frame, "FRAME.exr",
+           "EXR file with depth, a camera and perhaps normals, roughness and reflectance; or a shot, 'shot.####.exr'")
+      ->required();
+  add_text(*command, "--scene", flags->scene.scene, "SCENE",
+           "OBJ or glTF file, or a built-in name; default: the built-in one that the frame names");
+  add_text(*command, "-o,--output", flags->out, "REF.exr", "EXR file to write, of a shot truth.####.exr")->required();
   add_number(*command, "--samples", request.samples, allowed_rays,
-             "rays (bounces: paths) per pixel, rounded up to a multiple of 32; default 256, of reflections 1024")
-      ->type_name("N");
+             "rays (bounces: paths) per pixel, rounded up to a multiple of 32; default 256, of reflections 1024", "N");
   add_number(*command, "--radius", request.radius, {allowed_radii.least, allowed_radii.most, true},
-             "reach of an occluder, scene units, or inf; default: the scene's own, else made from the frame")
-      ->type_name("R");
-  command
-      ->add_option("--falloff", request.falloff,
-                   "none, or a technique: its contribution at the true first hit (--set hbao+.bias=0.2)")
-      ->type_name("none|NAME");
+             "reach of an occluder, scene units, or inf; default: the scene's own, else made from the frame", "R");
+  add_text(*command, "--falloff", request.falloff, "none|NAME",
+           "none, or a technique: its contribution at the true first hit (--set hbao+.bias=0.2)");
   add_kind_flags(*command, request);
-  add_number(*command, "--seed", flags->seed, {0, 1 << 30}, "of the sample set; in a shot the frame's number is added")
-      ->type_name("N");
-  command->add_option("--picture", flags->picture, "also as a picture")->type_name("AO.png");
+  add_number(*command, "--seed", flags->seed, {0, 1 << 30}, "of the sample set; in a shot the frame's number is added",
+             "N");
+  add_text(*command, "--picture", flags->picture, "AO.png", "also as a picture");
   command->add_flag("--half", flags->half, "store as half");
   add_compression(*command, flags->compression);
   add_frames(*command, flags->choice);

@@ -1,11 +1,11 @@
-#include "cli/reference/shot.h"
+#include "cli/shot/shot.h"
 
 #include <algorithm>
 
 #include "base/file_ledger.h"
 #include "cli/flags/radius.h"
+#include "cli/reference/job.h"
 #include "cli/shot/report.h"
-#include "cli/shot/shot.h"
 #include "gloam/error.h"
 #include "gloam/frame_numbers.h"
 #include "gloam/visualise.h"
@@ -28,7 +28,7 @@ class TruthStep : public FrameStep {
   }
 
   /// Throws UsageError where no frame could be traced, for lack of a scene. Frames that cannot be read are told in their turn.
-  void check_scene(const ShotFiles& shot) {
+  void check_scene(const SequenceFiles& shot) {
     for (const SequenceFrame& frame : shot.frames()) {
       try {
         scene_.load_for(shot.open(frame).files().front());
@@ -153,7 +153,7 @@ void reference_on_shot(const ReferenceCommand& flags, const ReferenceJob& job) {
     throw UsageError("--picture {}: is one file, and {} a shot; write both as patterns, such as truth.####.png",
                      flags.picture, flags.frame);
   const FramePattern output(flags.out, "-o");
-  const ShotFiles shot({.frame = flags.frame}, flags.frame_flags, flags.choice);
+  const SequenceFiles shot = shot_files(FrameArguments{.frame = flags.frame}, flags.frame_flags, flags.choice);
   NamedPatterns all = {{"-o", output}};
   if (!flags.picture.empty()) all.emplace_back("--picture", FramePattern(flags.picture, "--picture"));
   for (const SequenceFrame& frame : shot.frames())

@@ -172,27 +172,19 @@ void add_report(CLI::App& app) {
   auto flags = std::make_shared<ReportCommand>();
   CLI::App* command =
       app.add_subcommand("report", "what gloam bench measured, as one page for a browser or for documentation");
-  command
-      ->add_option(
-          "source", flags->sources,
-          "folder that gloam bench -o wrote; with --markdown also a bench.json by itself, and several of either")
-      ->required()
-      ->type_name("DIR|JSON");
+  add_text(*command, "source", flags->sources, "DIR|JSON",
+           "folder that gloam bench -o wrote; with --markdown also a bench.json by itself, and several of either")
+      ->required();
   add_number(*command, "--picture-width", flags->picture_width, {0, 65536},
-             "reduce wider pictures to this; 0: as stored; default: 480")
-      ->type_name("PIXELS");
+             "reduce wider pictures to this; 0: as stored; default: 480", "PIXELS");
   CLI::Option* compare = command->add_flag(
       "--compare", flags->compare,
       "say of two results which rows are faster or slower, nearer or farther; --markdown writes all rows as a page");
-  command
-      ->add_option("--markdown", flags->markdown,
-                   "write a page of documentation instead: which technique for which need, and all figures")
-      ->type_name("FILE.md")
+  add_text(*command, "--markdown", flags->markdown, "FILE.md",
+           "write a page of documentation instead: which technique for which need, and all figures")
       ->group("Writing");
-  command
-      ->add_option("--pictures", flags->pictures,
-                   "with --markdown: folder for pictures of up to three scenes, which the page shows")
-      ->type_name("DIR")
+  add_text(*command, "--pictures", flags->pictures, "DIR",
+           "with --markdown: folder for pictures of up to three scenes, which the page shows")
       ->group("Writing");
   for (const char* of_pages : {"--picture-width", "--pictures"}) compare->excludes(command->get_option(of_pages));
   flags->json.add_to(*command);

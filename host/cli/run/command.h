@@ -1,4 +1,4 @@
-// The flags of gloam run.
+// The flags of gloam run: shared by the files of the command.
 #pragma once
 
 #include <string>
@@ -23,5 +23,12 @@ struct RunCommand {
   CompositeFlags composite;
   JsonFlag json;
 };
+
+/// Runs, writes and prints. `request`: of the command's technique.
+void run_on_frame(const RunCommand& flags, const PlanRequest& request);
+
+/// Decodes, computes and writes neighbouring frames at the same time, in bounded memory. Throws Error at the end if a frame
+/// failed; the others are written.
+void run_on_shot(const RunCommand& flags, const PlanRequest& request);
 
 }  // namespace gloam::cli

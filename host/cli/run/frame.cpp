@@ -1,5 +1,3 @@
-#include "cli/run/frame.h"
-
 #include <algorithm>
 #include <chrono>
 #include <future>
@@ -9,6 +7,7 @@
 #include "cli/flags/memory.h"
 #include "cli/flags/options.h"
 #include "cli/flags/radius.h"
+#include "cli/run/command.h"
 #include "cli/run/outputs.h"
 #include "gloam/compute.h"
 #include "gloam/error.h"
@@ -262,7 +261,7 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   if (radius) radius->print();
   print_times(result, device.info(), watch);
   print_result(flags, plan, result, missed, writing.copied);
-  for (const std::string& path : pictures) fmt::print("wrote {}\n", printable(path));
+  print_written(pictures);
 }
 
 }  // namespace gloam::cli

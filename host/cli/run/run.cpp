@@ -5,9 +5,8 @@
 #include "cli/flags/given_flags.h"
 #include "cli/list/techniques.h"
 #include "cli/process/chunk_commands.h"
-#include "cli/run/frame.h"
+#include "cli/run/command.h"
 #include "cli/run/outputs.h"
-#include "cli/run/shot.h"
 #include "gloam/error.h"
 #include "gloam/frame_pattern.h"
 
@@ -36,19 +35,15 @@ void run_command(const RunCommand& given, const CLI::App& command) {
 void add_run(CLI::App& app) {
   auto flags = std::make_shared<RunCommand>();
   CLI::App* command = app.add_subcommand("run", "run a technique on a frame, or on each frame of a shot");
-  command
-      ->add_option("technique", flags->technique,
-                   "gloam list techniques shows them; ao: the default of ambient occlusion")
-      ->required()
-      ->type_name("TECHNIQUE");
+  add_text(*command, "technique", flags->technique, "TECHNIQUE",
+           "gloam list techniques shows them; ao: the default of ambient occlusion")
+      ->required();
   flags->frame.add_to(*command);
-  command->add_option("-o,--output", flags->out, "EXR file to write")->type_name("OUT.exr");
-  command
-      ->add_option("--into", flags->into, "a copy of the frame's file with all that it holds, and the result as a part")
-      ->type_name("COPY.exr");
-  command->add_option("--outputs", flags->outputs, "write these planes only, and compute only what they need")
-      ->type_name("A,B");
-  command->add_option("--picture", flags->picture, "the first output as a picture for people")->type_name("OUT.png");
+  add_text(*command, "-o,--output", flags->out, "OUT.exr", "EXR file to write");
+  add_text(*command, "--into", flags->into, "COPY.exr",
+           "a copy of the frame's file with all that it holds, and the result as a part");
+  add_text(*command, "--outputs", flags->outputs, "A,B", "write these planes only, and compute only what they need");
+  add_text(*command, "--picture", flags->picture, "OUT.png", "the first output as a picture for people");
   command->add_flag("--bare", flags->bare, "leave depth, normals and cameras out of OUT.exr");
   CLI::Option* half = command->add_flag("--half", flags->half, "write AO as half instead of float");
   add_compression(*command, flags->compression);

@@ -1,7 +1,6 @@
-#include "cli/run/shot.h"
-
 #include "cli/flags/memory.h"
 #include "cli/process/chunk_commands.h"
+#include "cli/run/command.h"
 #include "cli/run/outputs.h"
 #include "cli/shot/report.h"
 #include "gloam/error.h"
@@ -26,8 +25,9 @@ void check_flags(const RunCommand& flags) {
   if (!flags.picture.empty())
     throw UsageError("--picture {}: is made of one frame; leave it out, or run that frame alone", flags.picture);
   if (!frame.history.empty())
-    throw UsageError("--history {}: goes with one frame; run one frame after another, each with the file of the one before",
-                     frame.history);
+    throw UsageError(
+        "--history {}: goes with one frame; run one frame after another, each with the file of the one before",
+        frame.history);
   if (is_temporal(flags) && flags.shot.choice.missing == MissingFrames::hold)
     throw UsageError(
         "--missing hold: a frame that is held does not go on from the one before; skip missing frames, or "
@@ -42,7 +42,7 @@ void check_flags(const RunCommand& flags) {
 }
 
 /// Prints a command a line, each for some of the frames. Any of them may be run again, anywhere where the files are.
-void print_chunks(const RunCommand& flags, const ShotFiles& shot) {
+void print_chunks(const RunCommand& flags, const SequenceFiles& shot) {
   if (!flags.json.path.empty()) throw UsageError("--json {}: each chunk would write it; leave it out", flags.json.path);
   if (shot.cameras_are_in_order())
     throw UsageError(
@@ -77,7 +77,7 @@ void run_on_shot(const RunCommand& flags, const PlanRequest& alone) {
       .carried = {.depth = flags.shot.keep_depth && !flags.bare && !flags.out.empty(), .cameras = !flags.bare},
       .contents = flags.technique + flags.given};
   settings.request.temporal = is_temporal(flags);
-  const ShotFiles shot(flags.frame, flags.frame_flags, flags.shot.choice);
+  const SequenceFiles shot = shot_files(flags.frame, flags.frame_flags, flags.shot.choice);
   check_outputs(patterns, shot, {{"--json", flags.json.file()}});
   PlannedFrame first = first_planned(shot, settings);
   settings.writing = output_settings(flags, !flags.shot.as_float, first.request, first.plan);

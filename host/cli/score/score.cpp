@@ -7,14 +7,14 @@
 #include "base/files.h"
 #include "cli/bench/subjects.h"
 #include "cli/flags/memory.h"
-#include "cli/score/command.h"
 #include "cli/score/print.h"
-#include "cli/score/targets.h"
 #include "gloam/error.h"
 #include "measure/pictures.h"
 #include "score/entry.h"
+#include "score/method_command.h"
 #include "score/result_file.h"
 #include "score/scoring.h"
+#include "score/targets.h"
 #include "sequence/pattern_reads.h"
 
 namespace gloam::cli {
@@ -26,7 +26,7 @@ struct ScoreFlags {
   std::vector<std::string> images, json, truths;
   std::string set, frame, folder, items;
   bool no_images = false;
-  ScoreCommandFlags command;
+  score::MethodOptions command;
   FrameFlags frame_flags;
   DeviceFlags device;
   const CLI::App* app = nullptr;
@@ -36,7 +36,8 @@ struct ScoreFlags {
     std::string found;
     for (const std::string& each : json) {
       if (each == "-") continue;
-      if (!found.empty()) throw UsageError("--json {}: one entry is scored at a time, and {} is given already", each, found);
+      if (!found.empty())
+        throw UsageError("--json {}: one entry is scored at a time, and {} is given already", each, found);
       found = each;
     }
     if (found.empty())
@@ -68,12 +69,7 @@ void check_flags(const ScoreFlags& flags) {
     if (is_given(flag) && flags.command.command.empty()) throw UsageError("{}: is for --command; leave it out", flag);
   }
   if (flags.set.empty()) return;
-  for (const CLI::Option* option : flags.app->get_options()) {
-    if (option->get_group() == "Reading the frame" && option->count() > 0 && option->get_name() != "--plane" &&
-        option->get_name() != "--limit-memory")
-      throw UsageError("{}: says how frames are read, and those of a set say it themselves; leave it out",
-                       option->get_name());
-  }
+  check_no_reading_flags(*flags.app, {"--plane", "--limit-memory"});
 }
 
 /// All that is scored, and how far it is.
@@ -115,7 +111,7 @@ class ScoreRun {
     if (!rows_.empty()) {
       result_->update([&](score::Results& results) {
         for (const ScoredRow& row : rows_) results.set_fit(row.row, row.row["submitted"]["fit"]);
-        if (set_ && flags_.items.empty()) results.remove_others(entry_.name, kept);
+        if (!set_.empty() && flags_.items.empty()) results.remove_others(entry_.name, kept);
       });
     }
     erase_status();
@@ -137,16 +133,18 @@ class ScoreRun {
 
   void find_targets() {
     if (!flags_.set.empty()) {
-      ScoredSet found = read_set(flags_.set);
+      std::vector<std::string> notes;
+      score::ScoredSet found = score::read_set(flags_.set, notes);
+      note(notes);
       set_ = found.id;
       targets_ = std::move(found.targets);
       of_set_ = targets_;
-      if (!flags_.items.empty()) keep_items(targets_, split_list(flags_.items, "--items"));
+      if (!flags_.items.empty()) score::keep_items(targets_, split_list(flags_.items, "--items"));
       return;
     }
     ReadOptions reading = reading_;
     reading.channels.clear();
-    targets_ = own_targets({flags_.frame, flags_.truths, reading}, entry_.effect);
+    targets_ = score::own_targets({flags_.frame, flags_.truths, reading}, entry_.effect);
   }
 
   /// Finds the images, and leaves out the effects of which there are none.
@@ -154,7 +152,7 @@ class ScoreRun {
     for (const std::string& image : flags_.images)
       if (FramePattern::is_pattern(image)) reads_pattern(FramePattern(image, "IMAGES"));
     const bool are_free =
-        set_ == std::nullopt && files_given(flags_.images, targets_.front(), targets_.front().frames.front().number);
+        set_.empty() && score::files_given(flags_.images, targets_.front(), targets_.front().frames.front().number);
     std::vector<std::string> effects = {entry_.effect};
     if (!are_free) {
       files_.emplace(flags_.images, targets_, entry_.effect);
@@ -179,7 +177,7 @@ class ScoreRun {
 
   std::vector<score::SubmittedFile> files_of(const score::Target& target, const score::TargetFrame& at) {
     if (command_) return command_->files_of(target, at);
-    if (!files_) return *files_given(flags_.images, target, at.number);
+    if (!files_) return *score::files_given(flags_.images, target, at.number);
     std::vector<score::SubmittedFile> files = files_->files_of(target, at.number);
     if (files.empty())
       throw Error("there is no image of it; {} names one", score::SubmittedFiles::name_for(target, at.number));
@@ -259,11 +257,11 @@ class ScoreRun {
   const ScoreFlags& flags_;
   const score::Entry entry_;
   const ReadOptions reading_;
-  std::optional<score::SetId> set_;
+  report::SetFacts set_;
   std::vector<score::Target> targets_, of_set_;  ///< those chosen, and all of the set
   std::optional<score::ResultFile> result_;
   std::optional<score::Scoring> scoring_;
-  std::optional<MethodCommand> command_;
+  std::optional<score::MethodCommand> command_;
   std::optional<score::SubmittedFiles> files_;
   std::vector<ScoredRow> rows_;
   std::vector<score::LeftOut> missing_;
@@ -283,50 +281,35 @@ void score_command(const ScoreFlags& given) {
 void add_score(CLI::App& app) {
   auto flags = std::make_shared<ScoreFlags>();
   CLI::App* command = app.add_subcommand("score", "figures of images that any method made, beside gloam's own");
-  command
-      ->add_option(
-          "images", flags->images,
-          "EXR or PNG files, or a folder of them: ITEM[.FRAME][_VIEW][_EFFECT].exr; with --frame under any name")
-      ->type_name("IMAGES");
-  command
-      ->add_option("--json", flags->json,
-                   "what made the images, and how they show their values (docs/score.md); - also prints the figures as "
-                   "JSON, and nothing else, on standard output")
+  add_text(*command, "images", flags->images, "IMAGES",
+           "EXR or PNG files, or a folder of them: ITEM[.FRAME][_VIEW][_EFFECT].exr; with --frame under any name");
+  add_text(*command, "--json", flags->json, "ENTRY.json|-",
+           "what made the images, and how they show their values (docs/score.md); - also prints the figures as "
+           "JSON, and nothing else, on standard output")
       ->expected(1)
-      ->take_all()
-      ->type_name("ENTRY.json|-");
-  command->add_option("--set", flags->set, "set of frames and truths, as gloam set make makes it")->type_name("DIR");
-  command->add_option("--items", flags->items, "of the set, these items only")->type_name("A,B");
-  command
-      ->add_option("--frame", flags->frame,
-                   "frame that the images are of, in place of a set; frame.####.exr: a sequence")
-      ->type_name("FRAME.exr");
-  command->add_option("--truth", flags->truths, "its truth, once for each effect or view")
+      ->take_all();
+  add_text(*command, "--set", flags->set, "DIR", "set of frames and truths, as gloam set make makes it");
+  add_text(*command, "--items", flags->items, "A,B", "of the set, these items only");
+  add_text(*command, "--frame", flags->frame, "FRAME.exr",
+           "frame that the images are of, in place of a set; frame.####.exr: a sequence");
+  add_text(*command, "--truth", flags->truths, "REF.exr", "its truth, once for each effect or view")
       ->expected(1)
-      ->take_all()
-      ->type_name("REF.exr");
-  command
-      ->add_option(
-          "-o,--output", flags->folder,
-          "folder whose bench.json the figures join, with those of gloam bench or of other methods; made where "
-          "it is not there")
-      ->required()
-      ->type_name("DIR");
+      ->take_all();
+  add_text(*command, "-o,--output", flags->folder, "DIR",
+           "folder whose bench.json the figures join, with those of gloam bench or of other methods; made where "
+           "it is not there")
+      ->required();
   command->add_flag("--no-images", flags->no_images, "leave out the pictures in DIR/images");
   const char* group = "Running the method";
-  command
-      ->add_option(
-          "--command", flags->command.command,
-          "makes the images: 'engine --in {frame} --out {image}'; also {camera} {radius} {effect} {view} {item} "
-          "{frame_number}, and {frames} {images} for a whole sequence at once")
-      ->type_name("COMMAND")
+  add_text(*command, "--command", flags->command.command, "COMMAND",
+           "makes the images: 'engine --in {frame} --out {image}'; also {camera} {radius} {effect} {view} {item} "
+           "{frame_number}, and {frames} {images} for a whole sequence at once")
       ->group(group);
   add_number(*command, "--rounds", flags->command.rounds, allowed_rounds,
-             "times that the command and gloam's own technique run in turn, to be timed; default 3")
-      ->type_name("N")
+             "times that the command and gloam's own technique run in turn, to be timed; default 3", "N")
       ->group(group);
-  add_number(*command, "--timeout", flags->command.timeout, {0.1, 1e6}, "a run that takes longer is ended; default 600")
-      ->type_name("SECONDS")
+  add_number(*command, "--timeout", flags->command.timeout, {0.1, 1e6}, "a run that takes longer is ended; default 600",
+             "SECONDS")
       ->group(group);
   add_word(*command, "--image-type", flags->command.image_type, {"exr", "png"}, "of {image}; default exr")
       ->group(group);

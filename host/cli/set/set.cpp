@@ -235,15 +235,13 @@ void add_set(CLI::App& app) {
   auto flags = std::make_shared<SetCommand>();
   CLI::App* command =
       app.add_subcommand("set", "frozen sets of frames and truths: what there is, make one, verify one");
-  command->add_option("action", flags->action, "what to do")->required()->type_name(type_of_words(actions));
-  command->add_option("name", flags->name, "make: the set; verify: its folder; list: a set, to show its items")
-      ->type_name("NAME|DIR");
-  command->add_option("-o,--output", flags->out, "folder to make the set in; default: one of its name")
-      ->type_name("DIR");
-  command->add_option("--only", flags->only, "make only these items (gloam set list NAME)")->type_name("ITEM,ITEM");
+  add_text(*command, "action", flags->action, type_of_words(actions), "what to do")->required();
+  add_text(*command, "name", flags->name, "NAME|DIR",
+           "make: the set; verify: its folder; list: a set, to show its items");
+  add_text(*command, "-o,--output", flags->out, "DIR", "folder to make the set in; default: one of its name");
+  add_text(*command, "--only", flags->only, "ITEM,ITEM", "make only these items (gloam set list NAME)");
   add_number(*command, "--seed", flags->seed, allowed_seeds,
-             "make the seeded part instead: items that are drawn from this number")
-      ->type_name("N");
+             "make the seeded part instead: items that are drawn from this number", "N");
   flags->json.add_to(*command);
   command->footer(
       "A set is the same on every machine, and has hashes to prove it. An interrupted make goes on where it stopped. "

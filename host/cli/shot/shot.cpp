@@ -5,26 +5,18 @@
 #include "gloam/error.h"
 
 namespace gloam::cli {
-namespace {
 
-std::vector<FramePattern> patterns_of(const FrameArguments& inputs) {
-  std::vector<FramePattern> patterns = {FramePattern(inputs.frame, "FRAME.exr")};
-  if (!inputs.other_eye.empty()) patterns.emplace_back(inputs.other_eye, "RIGHT.exr");
-  return patterns;
+SequenceFiles shot_files(std::vector<FramePattern> inputs, const FrameFlags& flags, const FrameChoice& choice) {
+  std::vector<std::string> notes;
+  SequenceFiles files(std::move(inputs), flags.read_options(), choice, notes);
+  note(notes);
+  return files;
 }
 
-}  // namespace
-
-ShotFiles::ShotFiles(const FrameArguments& inputs, const FrameFlags& flags, const FrameChoice& choice)
-    : ShotFiles(patterns_of(inputs), flags, choice) {}
-
-ShotFiles::ShotFiles(std::vector<FramePattern> inputs, const FrameFlags& flags, const FrameChoice& choice)
-    : ShotFiles(std::move(inputs), flags, choice, {}) {}
-
-ShotFiles::ShotFiles(std::vector<FramePattern> inputs, const FrameFlags& flags, const FrameChoice& choice,
-                     std::vector<std::string> notes)
-    : SequenceFiles(std::move(inputs), flags.read_options(), choice, notes) {
-  note(notes);
+SequenceFiles shot_files(const FrameArguments& inputs, const FrameFlags& flags, const FrameChoice& choice) {
+  std::vector<FramePattern> patterns = {FramePattern(inputs.frame, "FRAME.exr")};
+  if (!inputs.other_eye.empty()) patterns.emplace_back(inputs.other_eye, "RIGHT.exr");
+  return shot_files(std::move(patterns), flags, choice);
 }
 
 void check_no_shot(const FrameArguments& frame, const std::vector<NamedPath>& outputs, const std::string& flag) {
@@ -37,7 +29,8 @@ void check_no_shot(const FrameArguments& frame, const std::vector<NamedPath>& ou
     throw UsageError("{}: is for a shot, and {} is one frame; write its number as in shot.####.exr", flag, frame.frame);
 }
 
-void check_outputs(const NamedPatterns& patterns, const ShotFiles& shot, const std::vector<NamedPath>& other_outputs) {
+void check_outputs(const NamedPatterns& patterns, const SequenceFiles& shot,
+                   const std::vector<NamedPath>& other_outputs) {
   for (const auto& [flag, pattern] : patterns) {
     for (const SequenceFrame& frame : shot.frames()) writes_file(flag, pattern.path_of(frame.number));
   }

@@ -12,17 +12,9 @@
 
 namespace gloam::cli {
 
-/// `SequenceFiles` by flags. Adds its notes to those of the command.
-class ShotFiles : public SequenceFiles {
- public:
-  ShotFiles(const FrameArguments& inputs, const FrameFlags& flags, const FrameChoice& choice);
-  /// Of any number of patterns.
-  ShotFiles(std::vector<FramePattern> inputs, const FrameFlags& flags, const FrameChoice& choice);
-
- private:
-  ShotFiles(std::vector<FramePattern> inputs, const FrameFlags& flags, const FrameChoice& choice,
-            std::vector<std::string> notes);
-};
+/// The files of a shot by flags, of any number of patterns. Adds its notes to those of the command.
+SequenceFiles shot_files(std::vector<FramePattern> inputs, const FrameFlags& flags, const FrameChoice& choice);
+SequenceFiles shot_files(const FrameArguments& inputs, const FrameFlags& flags, const FrameChoice& choice);
 
 /// Throws UsageError for outputs that are patterns, and for a flag of shots, with one frame. `flag`: empty if none is given.
 void check_no_shot(const FrameArguments& frame, const std::vector<NamedPath>& outputs, const std::string& flag);
@@ -31,7 +23,8 @@ void check_no_shot(const FrameArguments& frame, const std::vector<NamedPath>& ou
 using NamedPatterns = std::vector<std::pair<std::string, FramePattern>>;
 
 /// As `check_paths`, with the outputs of all frames; what the shot reads it has told itself.
-void check_outputs(const NamedPatterns& patterns, const ShotFiles& shot, const std::vector<NamedPath>& other_outputs);
+void check_outputs(const NamedPatterns& patterns, const SequenceFiles& shot,
+                   const std::vector<NamedPath>& other_outputs);
 
 /// From now on an interruption says that the frames written are whole, and what goes on.
 void say_how_to_go_on();

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <memory>
 
-#include "cli/process/children.h"
+#include "base/child_process.h"
 #include "gloam/error.h"
 
 namespace gloam::cli {

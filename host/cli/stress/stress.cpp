@@ -249,34 +249,27 @@ void add_stress(CLI::App& app) {
   auto flags = std::make_shared<StressCommand>();
   CLI::App* command =
       app.add_subcommand("stress", "go through frames that are hard to get right, and say how stable a technique is");
-  command->add_option("technique", flags->technique, "one or several, A,B (gloam list techniques), or all")
-      ->type_name("TECHNIQUE");
+  add_text(*command, "technique", flags->technique, "TECHNIQUE", "one or several, A,B (gloam list techniques), or all");
   command->add_option("--case", flags->cases, "only these, by number: 3 or 1,7 (gloam list cases)")
       ->check(accepted_by(parse_cases, "--case"))  // stays text, for messages
       ->type_name("N,N");
   add_number(*command, "--trial", flags->trial, {1, std::numeric_limits<int>::max()},
-             "only this trial of one case, to see what was found")
-      ->type_name("N");
+             "only this trial of one case, to see what was found", "N");
   command->add_flag("--quick", flags->quick, "a few of each kind: what a build can afford each time");
-  add_number(*command, "--frames", flags->frames, {1, 1000000000}, "random frames of case 1 (quick 60, else 1000)")
-      ->type_name("N");
-  add_number(*command, "--seed", flags->seed, allowed_seeds, "of the random frames (1)")->type_name("N");
+  add_number(*command, "--frames", flags->frames, {1, 1000000000}, "random frames of case 1 (quick 60, else 1000)",
+             "N");
+  add_number(*command, "--seed", flags->seed, allowed_seeds, "of the random frames (1)", "N");
   flags->DeviceFlags::add_to(*command);
   command->add_option("--against", flags->against, "devices to compare with: part of a name, all, or none")
       ->capture_default_str();
-  add_number(*command, "--jobs", flags->jobs, {1, 1024}, "techniques at a time (as many as there are cores)")
-      ->type_name("N");
+  add_number(*command, "--jobs", flags->jobs, {1, 1024}, "techniques at a time (as many as there are cores)", "N");
   add_number(*command, "--patience", flags->patience, {1, 1e6},
-             "seconds without a sign of life after which a trial is given up (600)")
-      ->type_name("SECONDS");
-  command->add_option("-o,--output", flags->out, "folder for the frames of a --trial and what was made of them")
-      ->type_name("DIR");
-  command->add_option("--markdown", flags->markdown, "write a page with all figures")->type_name("FILE.md");
-  command
-      ->add_option("--from", flags->from,
-                   "what earlier runs wrote with --json, joined: in words, or as the page of --markdown")
-      ->take_all()
-      ->type_name("FILE.json");
+             "seconds without a sign of life after which a trial is given up (600)", "SECONDS");
+  add_text(*command, "-o,--output", flags->out, "DIR", "folder for the frames of a --trial and what was made of them");
+  add_text(*command, "--markdown", flags->markdown, "FILE.md", "write a page with all figures");
+  add_text(*command, "--from", flags->from, "FILE.json",
+           "what earlier runs wrote with --json, joined: in words, or as the page of --markdown")
+      ->take_all();
   add_chunk_flags(*command, flags->chunks, flags->print, "the techniques, or the cases of a single one,",
                   "Several machines");
   command->add_flag("--child", flags->is_child)->group("");

@@ -3,28 +3,25 @@
 #include <fstream>
 #include <memory>
 
-#include "base/files.h"
-#include "base/memory.h"
 #include "cli/flags/memory.h"
 #include "cli/flags/shot_flags.h"
-#include "cli/info/cameras.h"
-#include "cli/info/plane_facts.h"
 #include "cli/process/browser.h"
-#include "cli/view/files.h"
 #include "gloam/error.h"
 #include "gloam/frame_pattern.h"
-#include "viewer/page.h"
+#include "viewer/files.h"
 
 namespace gloam::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using viewer::ViewedFile;
+using viewer::ViewedFrame;
 
 struct ViewCommand {
-  ViewChoice choice;
+  viewer::ViewChoice choice;
+  FrameFlags frame_flags;
   std::string output;
-  int step = 1;
-  bool half = false, no_open = false;
+  bool no_open = false;
   JsonFlag json;
 };
 
@@ -55,93 +52,10 @@ fs::path page_of(const ViewCommand& flags, const std::vector<ViewedFile>& files)
   std::vector<NamedPath> inputs;
   for (const ViewedFile& file : files)
     for (const ViewedFrame& frame : file.frames) inputs.push_back({"a file to show", frame.path});
-  inputs.push_back({"--camera", flags.choice.frame_flags.camera});
+  inputs.push_back({"--camera", flags.frame_flags.camera});
   check_paths(inputs, {{"-o", page.string()}, {"--json", flags.json.file()}});
   if (flags.output.empty()) check_is_ours(page);
   return page;
-}
-
-// --- What is said of a frame
-
-std::vector<std::pair<std::string, std::string>> facts_of(const FrameFile& file, const ViewChoice& choice) {
-  std::vector<std::pair<std::string, std::string>> facts;
-  const auto add = [&](const char* name, const std::string& text) {
-    if (!text.empty()) facts.emplace_back(name, text);
-  };
-  add("not shown", fmt::format("{}", fmt::join(unread_channels(file), ", ")));
-  if (choice.as_stored) return facts;
-  add("depth in the file", file.depth_convention());
-  add("normals in the file", file.normal_space().empty() ? "" : file.normal_space() + " space");
-  return facts;
-}
-
-viewer::FrameTexts texts_of(const FrameFile& file, const ViewedFrame& frame, const ViewChoice& choice) {
-  viewer::FrameTexts texts;
-  texts.name = file.path().filename().string();
-  texts.number = frame.number;
-  Json cameras;
-  add_cameras(file, choice.frame_flags, cameras);
-  for (const auto& [view, camera] : cameras["cameras"].items()) texts.cameras.emplace_back(view, camera_line(camera));
-  for (const PlaneSource& source : file.planes())
-    texts.windows[{source.view, source.plane}] = file.data_window(source.plane, source.view);
-  texts.facts = facts_of(file, choice);
-  texts.attributes = file.attributes();
-  return texts;
-}
-
-std::string values_in_words(const ViewChoice& choice) {
-  if (choice.as_stored) return "Every value is as the file has it: nothing is converted.";
-  const std::string converted =
-      "Depth is the distance along the view axis, and normals are in view space, whatever the file has";
-  if (!choice.as_read) return converted + "; all other values are as the file has them.";
-  return converted + "; normals are unit, shares are from 0 to 1, and NaN is replaced: what techniques read.";
-}
-
-// --- Writing
-
-int frames_in(const std::vector<ViewedFile>& files) {
-  int count = 0;
-  for (const ViewedFile& file : files) count += int(file.frames.size());
-  return count;
-}
-
-void add_frames_of(const std::vector<ViewedFile>& files, const ViewChoice& choice, viewer::PageWriter& page) {
-  const auto progress = progress_bar();
-  const int all = frames_in(files);
-  int done = 0;
-  for (const ViewedFile& viewed : files) {
-    page.begin_file(viewed.name, viewed.is_shot);
-    for (const ViewedFrame& frame : viewed.frames) {
-      FrameFile file(frame.path, frame.options);
-      const Frame read = file.read(planes_to_read(frame, file));
-      page.add(read, frame.planes, texts_of(file, frame, choice));
-      if (progress) progress(++done, all);
-    }
-  }
-}
-
-std::string title_of(const std::vector<ViewedFile>& files) {
-  std::vector<std::string> names;
-  for (const ViewedFile& file : files) names.push_back(file.name);
-  return first_names(names);
-}
-
-unsigned long long write_page(const ViewCommand& flags, const std::vector<ViewedFile>& files, const fs::path& path) {
-  unsigned long long bytes = 0;
-  write_atomically(path, [&](NewFile& out) {
-    viewer::PageWriter page(out, {title_of(files), values_in_words(flags.choice), flags.step, flags.half});
-    add_frames_of(files, flags.choice, page);
-    page.finish();
-    note(page.notes());
-    bytes = page.bytes();
-  });
-  if (bytes > viewer::large_page_bytes)
-    note(
-        {fmt::format("the page has {}: a browser takes seconds to open it, and as much memory; --planes, --frames and "
-                     "--views take fewer images, "
-                     "--half and --scale make them smaller",
-                     memory_in_words(bytes))});
-  return bytes;
 }
 
 // --- What is said of the page
@@ -168,12 +82,17 @@ void note_nothing_in_common(const std::vector<ViewedFile>& files) {
 }
 
 void view_command(const ViewCommand& flags) {
-  const std::vector<ViewedFile> files = viewed_files(flags.choice);
+  viewer::ViewChoice choice = flags.choice;
+  choice.reading = flags.frame_flags.read_options();
+  std::vector<std::string> notes;
+  const std::vector<ViewedFile> files = viewed_files(choice, notes);
   const fs::path page = page_of(flags, files);
-  planned_memory(flags.choice.frame_flags, files.front().name, bytes_to_view(files),
+  planned_memory(flags.frame_flags, files.front().name, bytes_to_view(files),
                  "--planes takes fewer planes, or shrink the frames");
+  note(notes);
   note_nothing_in_common(files);
-  const unsigned long long bytes = write_page(flags, files, page);
+  const unsigned long long bytes = write_page(page, files, choice, progress_bar(), notes);
+  note(notes);
   const bool opens = !flags.no_open && !flags.json.only_json() && has_browser();
   flags.json.write(document_of(files, page, bytes, opens), {page.string()});
   if (opens) open_in_browser(page);
@@ -188,24 +107,20 @@ void view_command(const ViewCommand& flags) {
 void add_view(CLI::App& app) {
   auto flags = std::make_shared<ViewCommand>();
   CLI::App* command = app.add_subcommand("view", "frames, results and truths as one page to look at and compare");
-  command
-      ->add_option("files", flags->choice.files,
-                   "EXR files, or those of shots: 'shot.####.exr'; of several, any two are compared")
-      ->required()
-      ->type_name("FILE.exr");
-  command->add_option("-o,--output", flags->output, "the page; default: FILE.view.html beside the first file")
-      ->type_name("PAGE.html")
+  add_text(*command, "files", flags->choice.files, "FILE.exr",
+           "EXR files, or those of shots: 'shot.####.exr'; of several, any two are compared")
+      ->required();
+  add_text(*command, "-o,--output", flags->output, "PAGE.html",
+           "the page; default: FILE.view.html beside the first file")
       ->group("Writing");
   add_parsed(
       *command, "--planes", flags->choice.planes,
       [](const std::string& text, const std::string& flag) { return split_list(text, flag); },
-      "only these planes; peel and stochastic mean all their layers; default: all")
-      ->type_name("A,B");
-  command->add_flag("--half", flags->half,
+      "only these planes; peel and stochastic mean all their layers; default: all", "A,B");
+  command->add_flag("--half", flags->choice.half,
                     "round values to half: a smaller page; default: every bit of the file's floats");
-  add_number(*command, "--scale", flags->step, {1, 64},
-             "keep every N-th pixel of every N-th row, from 1 to 64: a smaller page; default: 1")
-      ->type_name("N");
+  add_number(*command, "--scale", flags->choice.step, {1, 64},
+             "keep every N-th pixel of every N-th row, from 1 to 64: a smaller page; default: 1", "N");
   command->add_flag("--no-open", flags->no_open, "do not open the page in a browser")->group("Writing");
   CLI::Option* stored = command->add_flag("--as-stored", flags->choice.as_stored,
                                           "convert nothing: depth and normals too are shown as the file has them");
@@ -215,7 +130,7 @@ void add_view(CLI::App& app) {
       ->excludes(stored);
   add_frames(*command, flags->choice.frames);
   add_missing_without_hold(*command, flags->choice.frames);
-  flags->choice.frame_flags.add_to(*command);
+  flags->frame_flags.add_to(*command);
   flags->json.add_to(*command);
   command->footer(
       "Writes one file that needs no other and no network, and opens it where there is a display. Examples:\n"

@@ -43,6 +43,7 @@ def auto(frame=None, *, budget=None, error=None, mask=None, measure=False, compo
     budget: device time for all effects and for looking, milliseconds above 0: effects, presets and resolutions are chosen for the least error of
         the picture.  error: instead, the RMS error of the picture, above 0; chosen is what takes the least time. Both need the plane color.
     mask: whether an effect is computed only where the frame calls for it: "measured" (both ways are timed; the default), "always" or "never".
+        For the frames of a shot give "never", as the command does by default: masks that come and go from frame to frame would flicker.
     measure: also computes everything everywhere, and tells what that takes.
     composite: also makes the frame's colour with all effects, no light counted twice.
     color_holds: what colour holds beside direct light, "ambient,shadows" or "none"; default: as the file says, else ambient and shadows.
