@@ -12,8 +12,6 @@
 namespace gloam::bench {
 namespace {
 
-PARAMS(StochasticParams, STOCHASTIC_PARAMS)
-
 /// The radius in the shortest form that reads back as the same float.
 PlanRequest request_for(const Variation& variation) {
   PlanRequest request{

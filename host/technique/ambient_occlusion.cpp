@@ -1,6 +1,9 @@
 #include "technique/ambient_occlusion.h"
 
+#include <algorithm>
+
 #include "gloam/planes.h"
+#include "shared/sampling/ambient_occlusion.h"
 
 namespace gloam {
 namespace {
@@ -14,6 +17,20 @@ Pass bilateral_pass(const std::string& name, const std::string& from, const std:
           .defines = {{"COLUMNS", columns}, {"ROWS", rows}, {"COMPONENTS", components}},
           .footprint = {.columns = columns, .rows = rows},
           .can_skip = true};
+}
+
+/// Renames a technique's parameter `samples`, if it has one.
+void call_samples_points(Technique& technique) {
+  if (!ParameterValues(technique.parameters).has("samples")) return;
+  const auto rename = [](std::string& name) {
+    if (name == "samples") name = "points";
+  };
+  for (Parameter& parameter : technique.parameters) rename(parameter.name);
+  for (Preset& preset : technique.presets) {
+    for (auto& setting : preset.settings) rename(setting.first);
+  }
+  for (auto& setting : technique.converged) rename(setting.first);
+  technique.samples = [](const ParameterValues& values) { return int(values.number("points")); };
 }
 
 }  // namespace
@@ -80,16 +97,22 @@ Technique over_peeled_layers(Technique technique) {
   return technique;
 }
 
-std::vector<Pass> behind_depth(Pass estimate, int samples) {
-  const Binding hidden("hidden_depths", "hidden_depths", samples);
+std::vector<Pass> behind_depth(std::vector<Pass> passes, const StochasticParams& p) {
+  const Binding hidden("hidden_depths", "hidden_depths", p.samples);
+  const auto estimate =
+      std::find_if(passes.begin(), passes.end(), [](const Pass& pass) { return pass.name == "estimate"; });
+  estimate->reads.push_back({"occluders", hidden.plane, hidden.layers});
+  estimate->defines.insert(estimate->defines.end(), {{"EARLY_OUT", p.early_out},
+                                                     {"COMPENSATED", p.compensation != 1},
+                                                     {"STOCHASTIC", 1},
+                                                     {"OCCLUDERS_LAYERS", p.samples}});
   Pass sort{.name = "sort",
             .kernel = "sort_hidden_depths",
-            .reads = {"depth", {"stochastic", "stochastic", samples}},
-            .writes = {hidden}};
-  estimate.reads.push_back({"occluders", hidden.plane, hidden.layers});
-  estimate.defines.insert(estimate.defines.end(), {{"STOCHASTIC", 1}, {"OCCLUDERS_LAYERS", samples}});
-  sort.defines = estimate.defines;
-  return {std::move(sort), std::move(estimate)};
+            .reads = {"depth", {"stochastic", "stochastic", p.samples}},
+            .writes = {hidden},
+            .defines = estimate->defines};
+  passes.insert(estimate, std::move(sort));
+  return passes;
 }
 
 Pass at_lower_resolution(Pass sort, int scale) {
@@ -104,8 +127,7 @@ Pass at_lower_resolution(Pass sort, int scale) {
   return sort;
 }
 
-Technique over_stochastic_depth(Technique technique, ParameterList parameters,
-                                std::function<std::vector<Pass>(const ParameterValues&)> passes) {
+Technique over_stochastic_depth(Technique technique) {
   technique.variant = {technique.name, Layers::stochastic};
   technique.summary = technique.name + " with stochastic depths behind what is seen";
   technique.name.insert(0, stochastic_prefix);
@@ -114,20 +136,11 @@ Technique over_stochastic_depth(Technique technique, ParameterList parameters,
   technique.may_read.clear();
   technique.effect = {};
   technique.reads.push_back("stochastic");
-  technique.parameters = std::move(parameters);
-  technique.passes = std::move(passes);
-  return technique;
-}
-
-Technique with_points(Technique technique) {
-  const auto rename = [](Settings& settings) {
-    for (auto& [name, value] : settings) {
-      if (name == "samples") name = "points";
-    }
+  call_samples_points(technique);
+  technique.parameters = technique.parameters + StochasticParams::table();
+  technique.passes = [over_depth = technique.passes](const ParameterValues& values) {
+    return behind_depth(over_depth(values), values.as<StochasticParams>());
   };
-  for (Preset& preset : technique.presets) rename(preset.settings);
-  rename(technique.converged);
-  technique.samples = [](const ParameterValues& values) { return int(values.number("points")); };
   return technique;
 }
 

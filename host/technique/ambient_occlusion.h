@@ -1,13 +1,14 @@
 // What techniques for ambient occlusion share: their rows in the registry, their estimate, and variants over layers.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "gloam/technique.h"
+
+struct StochasticParams;  // shared/sampling/ambient_occlusion.h
 
 namespace gloam {
 
@@ -52,26 +53,15 @@ std::vector<Pass> bilateral_passes(int half_width, bool is_square, const std::st
 /// the stack `occluders`.
 Technique over_peeled_layers(Technique technique);
 
-/// The pass that sorts a number of stochastic depths for kernels (shared/sampling/hidden_depths.h), and `estimate` with the
-/// result as occluders behind the depth: the last of its `reads`.
-std::vector<Pass> behind_depth(Pass estimate, int samples);
-
-/// As above, with the choices of STOCHASTIC_PARAMS.
-template <typename Params>
-std::vector<Pass> behind_depth(Pass estimate, const Params& p) {
-  estimate.defines.insert(estimate.defines.end(), {{"EARLY_OUT", p.early_out}, {"COMPENSATED", p.compensation != 1}});
-  return behind_depth(std::move(estimate), p.samples);
-}
+/// The pass "estimate" of `passes` with stochastic depths as occluders behind the depth, the last of its `reads`, and before it the pass
+/// that sorts them for kernels (shared/sampling/hidden_depths.h).
+std::vector<Pass> behind_depth(std::vector<Pass> passes, const StochasticParams& p);
 
 /// The sorting pass for every `scale`-th pixel each way. Writes the depth of these pixels, and the hidden depths there.
 Pass at_lower_resolution(Pass sort, int scale);
 
-/// A variant of a technique with stochastic depths behind the depth: "sd-" before its name, with parameters and passes of its own.
-Technique over_stochastic_depth(Technique technique, ParameterList parameters,
-                                std::function<std::vector<Pass>(const ParameterValues&)> passes);
-
-/// A technique over stochastic depth, whose `samples` are stochastic depths, where the technique without has `samples` per pixel:
-/// these are the parameter `points`.
-Technique with_points(Technique technique);
+/// A variant of a technique with stochastic depths behind the depth: "sd-" before its name, STOCHASTIC_PARAMS after its parameters.
+/// Since `samples` are stochastic depths there, a technique's own `samples` per pixel are called `points`.
+Technique over_stochastic_depth(Technique technique);
 
 }  // namespace gloam

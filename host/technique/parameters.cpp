@@ -119,6 +119,11 @@ Parameter file_parameter(const char* name, const char* help) {
   return {name, Parameter::Type::file, 0, 0, 0, {}, "", help};
 }
 
+ParameterList operator+(ParameterList first, const ParameterList& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
 std::string file_name(int value) {
   FileNames& files = file_names();
   const std::lock_guard lock(files.mutex);

@@ -4,30 +4,37 @@
 #include <utility>
 
 #include "gloam/planes.h"
+#include "shared/stereo/params.h"
 #include "technique/ambient_occlusion.h"
 
 namespace gloam {
 namespace {
 
-using Filter = StereoChoices::Filter;
+bool is_from_both(const StereoParams& p) { return p.estimate == StereoParams::estimate_values::stereo; }
+bool reprojects(const StereoParams& p) { return p.reproject != StereoParams::reproject_values::off; }
 
-Pass visibility(const StereoChoices& c) {
+/// Whether the other eye is used near surfaces that only it sees, not for every pixel.
+bool is_near_half_occluded(const StereoParams& p) {
+  return is_from_both(p) && p.other_eye == StereoParams::other_eye_values::near;
+}
+
+Pass visibility(const StereoParams& p) {
   Pass pass{.name = "visibility",
             .kernel = "stereo_visibility",
             .reads = {"depth", from(From::other_view, {"other_depth", "depth"})},
             .writes = {"stereo_depth"}};
-  if (c.reproject) pass.writes.push_back("newly_visible");
-  if (c.near_half_occluded()) pass.writes.push_back("half_occluded");
+  if (reprojects(p)) pass.writes.push_back("newly_visible");
+  if (is_near_half_occluded(p)) pass.writes.push_back("half_occluded");
   return pass;
 }
 
 /// The pass on the eye that the other eye's estimate reads.
-Pass half_occlusion(const StereoChoices& c) {
+Pass half_occlusion(const StereoParams& p) {
   return {.name = "half-occlusion",
           .kernel = "stereo_half_occlusion",
           .reads = {{"depth", "stereo_depth"}},
           .writes = {"half_occluded"},
-          .on = c.reproject ? on_view(1 - c.primary) : On::every_view};
+          .on = reprojects(p) ? on_view(1 - p.primary) : On::every_view};
 }
 
 /// The estimate from both eyes: it also reads the same planes of the other eye, except the normals.
@@ -42,7 +49,7 @@ Pass from_both(Pass estimate, const std::string& kernel) {
   return estimate;
 }
 
-Pass reprojection(const std::string& raw, const StereoChoices& c) {
+Pass reprojection(const std::string& raw, const StereoParams& p) {
   return {.name = "reproject",
           .kernel = "stereo_reproject",
           .reads = {{"depth", "stereo_depth"},
@@ -51,17 +58,17 @@ Pass reprojection(const std::string& raw, const StereoChoices& c) {
                     from(From::other_view, {"other_normal", "normal"}),
                     from(From::other_view, {"other", raw})},
           .writes = {{"result", raw}, "newly_visible"},
-          .defines = {{"NO_BACK_CHECK", !c.back_check}},
-          .on = on_view(1 - c.primary)};
+          .defines = {{"NO_BACK_CHECK", p.reproject == StereoParams::reproject_values::no_back_check}},
+          .on = on_view(1 - p.primary)};
 }
 
 /// The estimate for pixels that only the second eye sees.
-Pass newly_visible(Pass estimate, const std::string& both, const StereoChoices& c) {
+Pass newly_visible(Pass estimate, const std::string& both, const StereoParams& p) {
   estimate.reads.push_back("newly_visible");
   Pass pass = from_both(std::move(estimate), both + "_list");
   pass.name = "newly visible";
-  pass.defines.emplace_back("ESTIMATE_MONO", !c.estimate_both);
-  pass.on = on_view(1 - c.primary);
+  pass.defines.emplace_back("ESTIMATE_MONO", !is_from_both(p));
+  pass.on = on_view(1 - p.primary);
   return pass;
 }
 
@@ -97,13 +104,51 @@ void set_initial(ParameterList& parameters, const std::string& name, const std::
   }
 }
 
-/// The plane that a filter makes of raw AO or light: "indirect" of "indirect_raw".
-std::string filtered(const std::string& raw) { return raw.substr(0, raw.rfind("_raw")); }
+/// The filter of raw AO or light, which makes "indirect" of "indirect_raw".
+std::vector<Pass> filter_of(const std::string& raw, const StereoParams& p) {
+  using Filter = StereoParams::filter_values;
+  const std::string result = raw.substr(0, raw.rfind("_raw"));
+  if (p.filter == Filter::mono) return bilateral_passes(p.half_width, false, raw, result);
+  return stereo_filter_passes(p.half_width, p.filter == Filter::stereo2d, raw, result);
+}
+
+std::vector<Pass> stereo_passes(std::vector<Pass> mono, const std::string& both, const StereoParams& p) {
+  Pass estimate = std::move(mono.back());
+  const std::string raw = estimate.writes.front().plane;
+  estimate.extras.clear();
+  estimate.may_read.clear();
+  mono.pop_back();
+  std::vector<Pass> passes = std::move(mono);
+  if (is_from_both(p) || reprojects(p)) passes.push_back(visibility(p));
+  passes.push_back(is_from_both(p) ? from_both(estimate, both) : estimate);
+  if (is_near_half_occluded(p)) {
+    passes.back().reads.push_back(from(From::other_view, {"other_half_occluded", "half_occluded"}));
+    passes.insert(passes.end() - 1, half_occlusion(p));
+  }
+  if (reprojects(p)) {
+    passes.back().on = on_view(p.primary);
+    passes.push_back(reprojection(raw, p));
+    passes.push_back(newly_visible(estimate, both, p));
+  }
+  for (Pass& pass : filter_of(raw, p)) passes.push_back(std::move(pass));
+  estimate.defines.emplace_back("COMPONENTS", int(plane_kind(raw).components.size()));
+  for (Pass& pass : passes) {
+    if (!estimate.source.empty()) pass.source = estimate.source;
+    // The whole program needs the defines of its estimate, and the components of what it makes.
+    for (const auto& define : estimate.defines) {
+      if (std::find(pass.defines.begin(), pass.defines.end(), define) == pass.defines.end())
+        pass.defines.push_back(define);
+    }
+    pass.defines.insert(
+        pass.defines.end(),
+        {{"STEREO", 1}, {"WITH_PIXEL_LIST", reprojects(p)}, {"WITH_HALF_OCCLUSION", is_near_half_occluded(p)}});
+  }
+  return passes;
+}
 
 }  // namespace
 
-Technique over_two_eyes(Technique mono, ParameterList parameters,
-                        std::function<std::vector<Pass>(const ParameterValues&)> passes) {
+Technique over_two_eyes(Technique mono, const std::string& both) {
   Technique t = std::move(mono);
   if (t.variant.of.empty()) t.variant.of = t.name;
   t.variant.both_eyes = true;
@@ -117,52 +162,20 @@ Technique over_two_eyes(Technique mono, ParameterList parameters,
   t.effect = {};
   t.extras.clear();
   t.read_for_extras.clear();
-  t.parameters = std::move(parameters);
+  t.parameters = t.parameters + StereoParams::table();
   for (const auto& [name, value] : std::exchange(t.then_with, {})) set_initial(t.parameters, name, value);
   t.then.clear();
-  t.passes = std::move(passes);
+  t.passes = [one_eye = t.passes, both](const ParameterValues& values) {
+    return stereo_passes(one_eye(values), both, values.as<StereoParams>());
+  };
   return t;
 }
 
-std::vector<Pass> stereo_filter_passes(Filter filter, int taps, const std::string& raw, const std::string& result) {
-  if (filter == Filter::mono) return bilateral_passes(taps, false, raw, result);
-  std::vector<Pass> passes = bilateral_passes(taps, filter == Filter::stereo2d, raw, result + "@one_eye");
+std::vector<Pass> stereo_filter_passes(int half_width, bool is_square, const std::string& raw,
+                                       const std::string& result) {
+  std::vector<Pass> passes = bilateral_passes(half_width, is_square, raw, result + "@one_eye");
   keep_weights(passes);
   passes.push_back(blend(passes.back(), result));
-  return passes;
-}
-
-std::vector<Pass> stereo_passes(std::vector<Pass> mono, const std::string& both, const StereoChoices& c) {
-  Pass estimate = std::move(mono.back());
-  const std::string raw = estimate.writes.front().plane;
-  estimate.extras.clear();
-  estimate.may_read.clear();
-  mono.pop_back();
-  std::vector<Pass> passes = std::move(mono);
-  if (c.estimate_both || c.reproject) passes.push_back(visibility(c));
-  passes.push_back(c.estimate_both ? from_both(estimate, both) : estimate);
-  if (c.near_half_occluded()) {
-    passes.back().reads.push_back(from(From::other_view, {"other_half_occluded", "half_occluded"}));
-    passes.insert(passes.end() - 1, half_occlusion(c));
-  }
-  if (c.reproject) {
-    passes.back().on = on_view(c.primary);
-    passes.push_back(reprojection(raw, c));
-    passes.push_back(newly_visible(estimate, both, c));
-  }
-  for (Pass& pass : stereo_filter_passes(c.filter, c.half_width, raw, filtered(raw))) passes.push_back(std::move(pass));
-  estimate.defines.emplace_back("COMPONENTS", int(plane_kind(raw).components.size()));
-  for (Pass& pass : passes) {
-    if (!estimate.source.empty()) pass.source = estimate.source;
-    // The whole program needs the defines of its estimate, and the components of what it makes.
-    for (const auto& define : estimate.defines) {
-      if (std::find(pass.defines.begin(), pass.defines.end(), define) == pass.defines.end())
-        pass.defines.push_back(define);
-    }
-    pass.defines.insert(
-        pass.defines.end(),
-        {{"STEREO", 1}, {"WITH_PIXEL_LIST", c.reproject}, {"WITH_HALF_OCCLUSION", c.near_half_occluded()}});
-  }
   return passes;
 }
 

@@ -22,10 +22,10 @@ int turns_for(int samples) {
 }
 
 template <typename Params>
-Pass estimate_of(const Params& p, int samples, bool scalable, int levels) {
+Pass estimate_of(const Params& p, bool scalable, int levels) {
   return ambient_occlusion_estimate(p, "alchemy_estimate",
-                                    {{"SAMPLES", samples},
-                                     {"TURNS", turns_for(samples)},
+                                    {{"SAMPLES", p.samples},
+                                     {"TURNS", turns_for(p.samples)},
                                      {"POWER", p.power},
                                      {"SCALABLE", scalable},
                                      {"LEVELS", levels}});
@@ -41,28 +41,20 @@ Pass level_pass(int level) {
           .scale = 1 << level};
 }
 
-std::vector<Pass> alchemy_passes(const AlchemyParams& p) { return {estimate_of(p, p.samples, false, 0)}; }
-
-std::vector<Pass> sd_alchemy_passes(const SdAlchemyParams& p) {
-  return behind_depth(estimate_of(p, p.points, false, 0), p);
-}
+std::vector<Pass> alchemy_passes(const AlchemyParams& p) { return {estimate_of(p, false, 0)}; }
 
 std::vector<Pass> sao_passes(const SaoParams& p) {
-  if (!p.levels) return {estimate_of(p, p.samples, true, 0)};
+  if (!p.levels) return {estimate_of(p, true, 0)};
   std::vector<Pass> passes;
   for (int level = 1; level <= levels; ++level) passes.push_back(level_pass(level));
-  passes.push_back(estimate_of(p, p.samples, true, levels));
+  passes.push_back(estimate_of(p, true, levels));
   passes.back().reads.push_back({"depth_levels", "sao_levels", levels});
   return passes;
 }
 
 /// Layers behind the depth have no levels: all are read at the pixels of the levels.
 std::vector<Pass> sao_passes_without_levels(const SaoParams& p) {
-  return {estimate_of(p, p.samples, true, p.levels ? levels : 0)};
-}
-
-std::vector<Pass> sd_sao_passes(const SdSaoParams& p) {
-  return behind_depth(estimate_of(p, p.points, true, p.levels ? levels : 0), p);
+  return {estimate_of(p, true, p.levels ? levels : 0)};
 }
 
 Technique row(std::string name, std::string summary, std::string paper) {
@@ -92,13 +84,12 @@ Technique sao(std::vector<Pass> (*passes)(const SaoParams&)) {
 }  // namespace
 
 std::vector<Technique> alchemy() {
-  return {
-      alchemy_over_depth(),
-      sao(sao_passes),
-      over_peeled_layers(alchemy_over_depth()),
-      over_peeled_layers(sao(sao_passes_without_levels)),
-      with_points(over_stochastic_depth(alchemy_over_depth(), SdAlchemyParams::table(), passes_of(sd_alchemy_passes))),
-      with_points(over_stochastic_depth(sao(sao_passes), SdSaoParams::table(), passes_of(sd_sao_passes)))};
+  return {alchemy_over_depth(),
+          sao(sao_passes),
+          over_peeled_layers(alchemy_over_depth()),
+          over_peeled_layers(sao(sao_passes_without_levels)),
+          over_stochastic_depth(alchemy_over_depth()),
+          over_stochastic_depth(sao(sao_passes_without_levels))};
 }
 
 }  // namespace gloam::techniques

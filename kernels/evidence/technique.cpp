@@ -24,8 +24,7 @@ void append(std::vector<float>& table, const EvidenceSet& set) {
 }
 
 /// The estimate from what `occluders` names, a kind of EvidenceSet.
-template <typename Params>
-Pass estimate_of(const Params& p, const std::string& occluders, int edge_factor) {
+Pass estimate_of(const EvidenceParams& p, const std::string& occluders, int edge_factor) {
   Pass estimate = ambient_occlusion_estimate(
       p, "evidence_estimate",
       {{"DIRECTIONS", p.directions}, {"STEPS", p.steps}, {"EDGE_FACTOR", edge_factor}, {"SURE_BIAS", p.bias >= 0.01f}});
@@ -63,23 +62,18 @@ Pass error_filter() {
   return pass;
 }
 
-template <typename Params>
-Pass mono_pass(const Params& p, const std::string& occluders) {
-  return estimate_of(p, occluders, p.edge_factor);
+Pass mono_pass(const ParameterValues& values, const std::string& occluders) {
+  return estimate_of(values.as<EvidenceParams>(), occluders, values.as<EvidenceEdgeParams>().edge_factor);
 }
 
-std::vector<Pass> over_depth(const EvidenceParams& p) { return {mono_pass(p, "depth"), error_filter()}; }
+std::vector<Pass> over_depth(const ParameterValues& values) { return {mono_pass(values, "depth"), error_filter()}; }
+std::vector<Pass> over_layers(const ParameterValues& values) { return {mono_pass(values, "peel"), error_filter()}; }
+std::vector<Pass> behind(const ParameterValues& values) { return {mono_pass(values, "stochastic"), error_filter()}; }
+std::vector<Pass> of_two_eyes(const EvidenceParams& p) { return {estimate_of(p, "depth", 1)}; }
 
-std::vector<Pass> over_layers(const EvidenceParams& p) { return {mono_pass(p, "peel"), error_filter()}; }
-
-std::vector<Pass> sd_passes(const SdEvidenceParams& p) {
-  std::vector<Pass> passes = behind_depth(mono_pass(p, "stochastic"), p);
-  passes.push_back(error_filter());
-  return passes;
-}
-
-Pass environment_pass(const EnvironmentParams& p, const std::string& occluders) {
-  Pass estimate = mono_pass(p, occluders);
+Pass environment_pass(const ParameterValues& values, const std::string& occluders) {
+  const auto p = values.as<EnvironmentParams>();
+  Pass estimate = mono_pass(values, occluders);
   estimate.kernel = "environment_estimate";
   estimate.source = "evidence/environment.cl";
   estimate.writes = {"environment_raw"};
@@ -91,17 +85,13 @@ Pass environment_pass(const EnvironmentParams& p, const std::string& occluders) 
   return with_environment(std::move(estimate), p, EnvironmentLight::coarsest);
 }
 
-std::vector<Pass> environment_over_depth(const EnvironmentParams& p) { return {environment_pass(p, "depth")}; }
-std::vector<Pass> environment_over_layers(const EnvironmentParams& p) { return {environment_pass(p, "peel")}; }
+std::vector<Pass> environment_over_depth(const ParameterValues& values) { return {environment_pass(values, "depth")}; }
+std::vector<Pass> environment_over_layers(const ParameterValues& values) { return {environment_pass(values, "peel")}; }
 
 std::string environment_note(const ParameterValues& values, const View& view) {
   return environment_assumption(
       values.as<EnvironmentParams>(), view,
       "environment: no map is given, so light is 1 from all around; give --environment FILE, a lat-long map");
-}
-
-std::vector<Pass> stereo_evidence_passes(const StereoEvidenceParams& p) {
-  return stereo_passes({estimate_of(p, "depth", 1)}, "stereo_slices", stereo_choices(p));
 }
 
 /// The technique that `ao` stands for, and that `gloam auto` runs: the nearest to the truth on nearly every frame (README.md).
@@ -113,8 +103,8 @@ Technique evidence_over_depth() {
   t.extras = {"bent_normal", "cone", "specular_occlusion_raw", "lobe_weight", "ao_error"};
   t.read_for_extras = {{"specular_occlusion_raw", "roughness"}, {"lobe_weight", "roughness"}};
   t.may_read = {"back_depth"};
-  t.parameters = EvidenceParams::table();
-  t.passes = passes_of(over_depth);
+  t.parameters = EvidenceParams::table() + EvidenceEdgeParams::table();
+  t.passes = over_depth;
   t.default_for = {"ao_raw", "bent_normal", "cone", "specular_occlusion_raw", "lobe_weight"};
   t.effect = {.name = "ambient occlusion",
               .changes = "ao",
@@ -128,12 +118,14 @@ Technique evidence_over_depth() {
 
 Technique evidence_over_layers() {
   Technique t = evidence_over_depth();
-  t.passes = passes_of(over_layers);
+  t.passes = over_layers;
   return over_peeled_layers(std::move(t));
 }
 
 Technique evidence_over_stochastic_depth() {
-  Technique t = over_stochastic_depth(evidence_over_depth(), SdEvidenceParams::table(), passes_of(sd_passes));
+  Technique t = evidence_over_depth();
+  t.passes = behind;
+  t = over_stochastic_depth(std::move(t));
   t.effect = {.name = "hidden layers",
               .refines = "evidence",
               .mask = "hidden-mask",
@@ -146,7 +138,10 @@ Technique evidence_over_stochastic_depth() {
 
 /// The second eye reuses what the first finds wherever both see the same surface: only the rest is computed for it.
 Technique evidence_over_two_eyes() {
-  Technique t = over_two_eyes(evidence_over_depth(), StereoEvidenceParams::table(), passes_of(stereo_evidence_passes));
+  Technique t = evidence_over_depth();
+  t.parameters = EvidenceParams::table();
+  t.passes = passes_of(of_two_eyes);
+  t = over_two_eyes(std::move(t), "stereo_slices");
   t.effect = {.name = "two views alike",
               .refines = "evidence",
               .mask = "stereo-visibility",
@@ -169,8 +164,8 @@ Technique environment() {
   t.then_with = {{"half_width", "3"}};
   t.extras = {"ao_raw", "bent_normal", "cone"};
   t.may_read = {"back_depth"};
-  t.parameters = EnvironmentParams::table();
-  t.passes = passes_of(environment_over_depth);
+  t.parameters = EvidenceParams::table() + EvidenceEdgeParams::table() + EnvironmentParams::table();
+  t.passes = environment_over_depth;
   t.assumes = environment_note;
   t.effect = {.name = "light of an environment",
               .changes = "environment",
@@ -181,7 +176,7 @@ Technique environment() {
 
 Technique environment_of_layers() {
   Technique t = environment();
-  t.passes = passes_of(environment_over_layers);
+  t.passes = environment_over_layers;
   return over_peeled_layers(std::move(t));
 }
 

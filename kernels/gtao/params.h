@@ -1,5 +1,4 @@
 #include "shared/sampling/ambient_occlusion.h"
-#include "shared/stereo/params.h"
 
 #define SLICE_PARAMS(P)                                                                        \
   REACH_PARAMS(P)                                                                              \
@@ -25,36 +24,6 @@
     "a source of light counts up to this, in its colour: fewer fireflies beside small lamps, and less light from " \
     "them")
 
-#define SD_GTAO_PARAMS(P) \
-  GTAO_PARAMS(P)          \
-  STOCHASTIC_PARAMS(P)
-
-#define SD_BITMASK_PARAMS(P) \
-  BITMASK_PARAMS(P)          \
-  STOCHASTIC_PARAMS(P)
-
-#define SD_INDIRECT_PARAMS(P) \
-  INDIRECT_PARAMS(P)          \
-  STOCHASTIC_PARAMS(P)
-
-#define STEREO_GTAO_PARAMS(P) \
-  GTAO_PARAMS(P)              \
-  STEREO_PARAMS(P)
-
-#define STEREO_BITMASK_PARAMS(P) \
-  BITMASK_PARAMS(P)              \
-  STEREO_PARAMS(P)
-
-#define STEREO_INDIRECT_PARAMS(P) \
-  INDIRECT_PARAMS(P)              \
-  STEREO_PARAMS(P)
-
 PARAMS(GtaoParams, GTAO_PARAMS)
 PARAMS(BitmaskParams, BITMASK_PARAMS)
 PARAMS(IndirectParams, INDIRECT_PARAMS)
-PARAMS(SdIndirectParams, SD_INDIRECT_PARAMS)
-PARAMS(SdGtaoParams, SD_GTAO_PARAMS)
-PARAMS(SdBitmaskParams, SD_BITMASK_PARAMS)
-PARAMS(StereoGtaoParams, STEREO_GTAO_PARAMS)
-PARAMS(StereoBitmaskParams, STEREO_BITMASK_PARAMS)
-PARAMS(StereoIndirectParams, STEREO_INDIRECT_PARAMS)

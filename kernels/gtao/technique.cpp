@@ -13,18 +13,13 @@ Pass estimate_of(const Params& p, Defines defines) {
   return estimate;
 }
 
-template <typename Params>
-Pass gtao_pass(const Params& p) {
-  return estimate_of(p, {{"BITMASK", 0}, {"FADE", p.fade > 0}, {"THICKNESS_HEURISTIC", p.thickness_heuristic > 0}});
+std::vector<Pass> gtao_passes(const GtaoParams& p) {
+  return {estimate_of(p, {{"BITMASK", 0}, {"FADE", p.fade > 0}, {"THICKNESS_HEURISTIC", p.thickness_heuristic > 0}})};
 }
 
-template <typename Params>
-Pass bitmask_pass(const Params& p) {
-  return estimate_of(p, {{"BITMASK", 1}});
-}
+std::vector<Pass> bitmask_passes(const BitmaskParams& p) { return {estimate_of(p, {{"BITMASK", 1}})}; }
 
-template <typename Params>
-Pass indirect_pass(const Params& p) {
+Pass indirect_pass(const IndirectParams& p) {
   Pass estimate = estimate_of(p, {{"BITMASK", 1}, {"LIGHT", 1}, {"RAYS", p.rays}});
   estimate.kernel = "indirect_estimate";
   estimate.source = "gtao/indirect.cl";
@@ -45,19 +40,11 @@ Pass pack_pass(const Defines& defines) {
           .defines = defines};
 }
 
+/// Hidden depths, where there are any, close sectors and send nothing. Of two eyes each one's pixels send their own light.
 std::vector<Pass> indirect_passes(const IndirectParams& p) {
   Pass estimate = indirect_pass(p);
   estimate.reads.push_back(sources());
   return {pack_pass(estimate.defines), std::move(estimate)};
-}
-
-/// Hidden depths close sectors and send nothing.
-std::vector<Pass> sd_indirect_passes(const SdIndirectParams& p) {
-  Pass estimate = indirect_pass(p);
-  estimate.reads.push_back(sources());
-  std::vector<Pass> passes = behind_depth(std::move(estimate), p);
-  passes.insert(passes.begin(), pack_pass(passes.back().defines));
-  return passes;
 }
 
 /// Every peeled layer sends its own light, which is read as it is.
@@ -69,26 +56,6 @@ std::vector<Pass> dp_indirect_passes(const IndirectParams& p) {
   for (const char* component : {"x", "y", "z"})
     estimate.reads.push_back({std::string("light_normal_") + component, std::string("peel_normal_") + component});
   return {std::move(estimate)};
-}
-
-std::vector<Pass> gtao_passes(const GtaoParams& p) { return {gtao_pass(p)}; }
-std::vector<Pass> bitmask_passes(const BitmaskParams& p) { return {bitmask_pass(p)}; }
-std::vector<Pass> sd_gtao_passes(const SdGtaoParams& p) { return behind_depth(gtao_pass(p), p); }
-std::vector<Pass> sd_bitmask_passes(const SdBitmaskParams& p) { return behind_depth(bitmask_pass(p), p); }
-
-std::vector<Pass> stereo_gtao_passes(const StereoGtaoParams& p) {
-  return stereo_passes({gtao_pass(p)}, "stereo_slices", stereo_choices(p));
-}
-
-std::vector<Pass> stereo_bitmask_passes(const StereoBitmaskParams& p) {
-  return stereo_passes({bitmask_pass(p)}, "stereo_slices", stereo_choices(p));
-}
-
-/// Each eye's pixels send their own light.
-std::vector<Pass> stereo_indirect_passes(const StereoIndirectParams& p) {
-  Pass estimate = indirect_pass(p);
-  estimate.reads.push_back(sources());
-  return stereo_passes({pack_pass(estimate.defines), std::move(estimate)}, "stereo_slices", stereo_choices(p));
 }
 
 Technique row(std::string name, std::string summary, std::string paper) {
@@ -140,7 +107,7 @@ Technique indirect_over_depth() {
 }
 
 Technique indirect_over_two_eyes() {
-  Technique t = over_two_eyes(indirect_over_depth(), StereoIndirectParams::table(), passes_of(stereo_indirect_passes));
+  Technique t = over_two_eyes(indirect_over_depth(), "stereo_slices");
   t.effect = {.name = "light alike in two views",
               .refines = "indirect",
               .mask = "stereo-visibility",
@@ -169,11 +136,11 @@ std::vector<Technique> gtao() {
           over_peeled_layers(gtao_over_depth()),
           over_peeled_layers(bitmask_over_depth()),
           indirect_over_layers(),
-          over_stochastic_depth(indirect_over_depth(), SdIndirectParams::table(), passes_of(sd_indirect_passes)),
-          over_stochastic_depth(gtao_over_depth(), SdGtaoParams::table(), passes_of(sd_gtao_passes)),
-          over_stochastic_depth(bitmask_over_depth(), SdBitmaskParams::table(), passes_of(sd_bitmask_passes)),
-          over_two_eyes(gtao_over_depth(), StereoGtaoParams::table(), passes_of(stereo_gtao_passes)),
-          over_two_eyes(bitmask_over_depth(), StereoBitmaskParams::table(), passes_of(stereo_bitmask_passes)),
+          over_stochastic_depth(indirect_over_depth()),
+          over_stochastic_depth(gtao_over_depth()),
+          over_stochastic_depth(bitmask_over_depth()),
+          over_two_eyes(gtao_over_depth(), "stereo_slices"),
+          over_two_eyes(bitmask_over_depth(), "stereo_slices"),
           indirect_over_two_eyes()};
 }
 

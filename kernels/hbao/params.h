@@ -9,9 +9,4 @@
   P(choice, weighting, uniform, (uniform, cosine),                                                              \
     "weight of a direction: the same for all, or its cosine to the normal")
 
-#define SD_HBAO_PARAMS(P) \
-  HBAO_PARAMS(P)          \
-  STOCHASTIC_PARAMS(P)
-
 PARAMS(HbaoParams, HBAO_PARAMS)
-PARAMS(SdHbaoParams, SD_HBAO_PARAMS)

@@ -9,8 +9,7 @@ namespace {
 using Falloff = HbaoParams::falloff_values;
 using Weighting = HbaoParams::weighting_values;
 
-template <typename Params>
-Pass estimate_of(const Params& p) {
+std::vector<Pass> passes(const HbaoParams& p) {
   Pass estimate = ambient_occlusion_estimate(p, "hbao_estimate",
                                              {{"DIRECTIONS", p.directions},
                                               {"STEPS", p.steps},
@@ -18,11 +17,8 @@ Pass estimate_of(const Params& p) {
                                               {"LINEAR_FALLOFF", p.falloff == Falloff::linear},
                                               {"COSINE_WEIGHTED", p.weighting == Weighting::cosine}});
   estimate.extras = {"bent_normal", "cone"};
-  return estimate;
+  return {std::move(estimate)};
 }
-
-std::vector<Pass> passes(const HbaoParams& p) { return {estimate_of(p)}; }
-std::vector<Pass> sd_passes(const SdHbaoParams& p) { return behind_depth(estimate_of(p), p); }
 
 double weight_of(const HbaoParams& p, double distance) {
   if (p.falloff == Falloff::none) return 1;
@@ -55,8 +51,7 @@ Technique over_depth() {
 }  // namespace
 
 std::vector<Technique> hbao() {
-  return {over_depth(), over_peeled_layers(over_depth()),
-          over_stochastic_depth(over_depth(), SdHbaoParams::table(), passes_of(sd_passes))};
+  return {over_depth(), over_peeled_layers(over_depth()), over_stochastic_depth(over_depth())};
 }
 
 }  // namespace gloam::techniques

@@ -7,27 +7,23 @@ namespace {
 
 using Falloff = HbaoPlusParams::falloff_values;
 
-template <typename Params>
-Pass estimate_of(const Params& p) {
-  return ambient_occlusion_estimate(p, "hbao_plus_estimate",
-                                    {{"DIRECTIONS", p.directions},
-                                     {"STEPS", p.steps},
-                                     {"POWER", p.power},
-                                     {"NO_FALLOFF", p.falloff == Falloff::none}});
+std::vector<Pass> passes(const HbaoPlusParams& p) {
+  return {ambient_occlusion_estimate(p, "hbao_plus_estimate",
+                                     {{"DIRECTIONS", p.directions},
+                                      {"STEPS", p.steps},
+                                      {"POWER", p.power},
+                                      {"NO_FALLOFF", p.falloff == Falloff::none}})};
 }
 
-std::vector<Pass> passes(const HbaoPlusParams& p) { return {estimate_of(p)}; }
-std::vector<Pass> sd_passes(const SdHbaoPlusParams& p) { return behind_depth(estimate_of(p), p); }
-
 /// Algorithm 3, for the first view. Reads stochastic depths of both views, of the second at its own resolution.
-std::vector<Pass> multiview_passes(const MultiviewParams& p) {
-  Pass estimate = estimate_of(p);
-  estimate.writes = {{"ao_raw", "multiview_own"}};
-  estimate.on = On::first_view;
-  estimate.defines.push_back({"MULTIVIEW", 1});
-  std::vector<Pass> passes = behind_depth(std::move(estimate), p);
+std::vector<Pass> multiview_passes(const ParameterValues& values) {
+  std::vector<Pass> own = passes(values.as<HbaoPlusParams>());
+  own.back().writes = {{"ao_raw", "multiview_own"}};
+  own.back().on = On::first_view;
+  own.back().defines.push_back({"MULTIVIEW", 1});
+  std::vector<Pass> passes = behind_depth(std::move(own), values.as<StochasticParams>());
   Binding other_depth = "depth", other_hidden = passes.back().reads.back();  // added by behind_depth
-  if (const int scale = 1 << p.other_resolution; scale > 1) {
+  if (const int scale = 1 << values.as<OtherViewParams>().other_resolution; scale > 1) {
     Pass sort = at_lower_resolution(passes.front(), scale);
     passes.front().on = On::first_view;
     sort.on = On::second_view;
@@ -72,33 +68,20 @@ Technique over_depth() {
   return t;
 }
 
-Technique over_stochastic() {
-  return over_stochastic_depth(over_depth(), SdHbaoPlusParams::table(), passes_of(sd_passes));
-}
-
 Technique multiview() {
-  Technique t = over_stochastic();
+  Technique t = over_stochastic_depth(over_depth());
   t.variant = {};  // a method of its own
   t.name = "multiview";
   t.summary = "sd-hbao+ for the first of two views, with occluders from both";
   t.paper = "Vermeer, Scandolo, Eisemann 2021";
   t.views = 2;
-  t.parameters = MultiviewParams::table();
-  t.passes = passes_of(multiview_passes);
+  t.parameters = t.parameters + OtherViewParams::table();
+  t.passes = multiview_passes;
   return t;
 }
 
-std::vector<Pass> stereo_ao_passes(const StereoAoParams& p) {
-  return stereo_passes({estimate_of(p)}, "hbao_plus_stereo", stereo_choices(p));
-}
-
-/// Each eye uses its own hidden depths.
-std::vector<Pass> stereo_sd_passes(const StereoSdHbaoPlusParams& p) {
-  return stereo_passes(behind_depth(estimate_of(p), p), "hbao_plus_stereo", stereo_choices(p));
-}
-
 Technique stereo_ao() {
-  Technique t = over_two_eyes(over_depth(), StereoAoParams::table(), passes_of(stereo_ao_passes));
+  Technique t = over_two_eyes(over_depth(), "hbao_plus_stereo");
   t.name = "stereo-ao";
   return t;
 }
@@ -106,12 +89,9 @@ Technique stereo_ao() {
 }  // namespace
 
 std::vector<Technique> hbao_plus() {
-  return {over_depth(),
-          over_peeled_layers(over_depth()),
-          over_stochastic(),
-          multiview(),
-          stereo_ao(),
-          over_two_eyes(over_stochastic(), StereoSdHbaoPlusParams::table(), passes_of(stereo_sd_passes))};
+  return {over_depth(), over_peeled_layers(over_depth()), over_stochastic_depth(over_depth()), multiview(), stereo_ao(),
+          // Each eye uses its own hidden depths.
+          over_two_eyes(over_stochastic_depth(over_depth()), "hbao_plus_stereo")};
 }
 
 }  // namespace gloam::techniques

@@ -1,6 +1,8 @@
 #include "shared/sampling/ambient_occlusion.h"
 
-#define BALL_PARAMS(P)                                                                                          \
+#define SSAO_PARAMS(P)                                                                                          \
+  REACH_PARAMS(P)                                                                                               \
+  P(int, samples, 18, 1, 2048, "", "points looked at per pixel")                                                \
   P(bool, hemisphere, on, "points in the half ball above the surface; off: in the whole ball, as in the paper") \
   P(float, inner, 0, 0, 0.99f, "radii", "least distance of the points: a shell instead of a ball")              \
   P(float, bias, 0.02f, 0, 0.99f, "",                                                                           \
@@ -8,16 +10,4 @@
   P(float, range, 2, 0, INFINITY, "radii",                                                                      \
     "an occluder up to this far before the pixel's point counts in full, from twice that on not at all")
 
-#define SSAO_PARAMS(P)                                           \
-  REACH_PARAMS(P)                                                \
-  P(int, samples, 18, 1, 2048, "", "points looked at per pixel") \
-  BALL_PARAMS(P)
-
-#define SD_SSAO_PARAMS(P)                                       \
-  REACH_PARAMS(P)                                               \
-  P(int, points, 18, 1, 2048, "", "points looked at per pixel") \
-  BALL_PARAMS(P)                                                \
-  STOCHASTIC_PARAMS(P)
-
 PARAMS(SsaoParams, SSAO_PARAMS)
-PARAMS(SdSsaoParams, SD_SSAO_PARAMS)

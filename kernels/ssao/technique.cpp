@@ -4,15 +4,12 @@
 namespace gloam::techniques {
 namespace {
 
-template <typename Params>
-Pass estimate_of(const Params& p, int points) {
-  Pass estimate = ambient_occlusion_estimate(p, "ssao_estimate", {{"SAMPLES", points}, {"HEMISPHERE", p.hemisphere}});
+std::vector<Pass> passes(const SsaoParams& p) {
+  Pass estimate =
+      ambient_occlusion_estimate(p, "ssao_estimate", {{"SAMPLES", p.samples}, {"HEMISPHERE", p.hemisphere}});
   estimate.extras = {"bent_normal", "cone"};
-  return estimate;
+  return {std::move(estimate)};
 }
-
-std::vector<Pass> passes(const SsaoParams& p) { return {estimate_of(p, p.samples)}; }
-std::vector<Pass> sd_passes(const SdSsaoParams& p) { return behind_depth(estimate_of(p, p.points), p); }
 
 Technique over_depth() {
   Technique t =
@@ -29,7 +26,7 @@ Technique over_depth() {
 
 /// Not the SSAO of the paper, which is that of `sd-alchemy` and `sd-sao`.
 Technique over_stochastic() {
-  Technique t = with_points(over_stochastic_depth(over_depth(), SdSsaoParams::table(), passes_of(sd_passes)));
+  Technique t = over_stochastic_depth(over_depth());
   t.summary = "ssao (points in a half ball, Mittring 2007) with stochastic depths behind what is seen";
   return t;
 }

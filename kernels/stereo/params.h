@@ -1,4 +1,3 @@
-#include "shared/both/params.h"
 #include "shared/stereo/params.h"
 
 #define STEREO_VISIBILITY_PARAMS(P) BACK_CHECK_PARAMS(P)

@@ -12,9 +12,7 @@ std::vector<Pass> visibility_passes(const StereoVisibilityParams&) {
 }
 
 std::vector<Pass> bilateral_passes(const StereoBilateralParams& p) {
-  const bool is_square = p.form == StereoBilateralParams::form_values::square;
-  return stereo_filter_passes(is_square ? StereoChoices::Filter::stereo2d : StereoChoices::Filter::stereo,
-                              p.half_width);
+  return stereo_filter_passes(p.half_width, p.form == StereoBilateralParams::form_values::square);
 }
 
 }  // namespace

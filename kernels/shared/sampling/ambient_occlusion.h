@@ -21,6 +21,8 @@
     "lower still; on: also where it is within reach, as in the paper")                                             \
   P(float, compensation, 1, 0, 8, "", "factor on the occlusion by hidden depths, which miss some surfaces")
 
+PARAMS(StochasticParams, STOCHASTIC_PARAMS)
+
 #ifdef __OPENCL_C_VERSION__
 #include "shared/frame/camera.h"
 #include "shared/lanes/wanted.h"

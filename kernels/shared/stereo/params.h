@@ -2,6 +2,7 @@
 #ifndef GLOAM_STEREO_PARAMS_H
 #define GLOAM_STEREO_PARAMS_H
 
+#include "shared/both/params.h"
 #include "shared/filter/bilateral_params.h"
 
 #define BACK_CHECK_PARAMS(P)                  \
@@ -24,5 +25,7 @@
   P(choice, primary, left, (left, right), "the eye that is computed first: the first view, or the second")         \
   BACK_CHECK_PARAMS(P)                                                                                             \
   STEREO_FILTER_PARAMS(P)
+
+PARAMS(StereoParams, STEREO_PARAMS)
 
 #endif

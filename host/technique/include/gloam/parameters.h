@@ -28,6 +28,9 @@ struct Parameter {
 /// The parameters of a technique, in the order of its kernels' struct.
 using ParameterList = std::vector<Parameter>;
 
+/// The parameters of two lists, of which a technique reads one struct each (`ParameterValues::as`).
+ParameterList operator+(ParameterList first, const ParameterList& second);
+
 Parameter float_parameter(const char* name, double initial, double min, double max, const char* unit, const char* help);
 Parameter int_parameter(const char* name, int initial, int min, int max, const char* unit, const char* help);
 Parameter bool_parameter(const char* name, int initial, const char* help);
@@ -60,10 +63,11 @@ class ParameterValues {
 
   const void* bytes() const { return bytes_.data(); }
   size_t size() const { return bytes_.size(); }
+  /// The values of one of the lists that the table was put together from.
   template <typename Params>
   Params as() const {
     Params params;
-    std::memcpy(&params, bytes_.data(), sizeof params);
+    std::memcpy(&params, &bytes_.at(4 * index_of(Params::table().front().name)), sizeof params);
     return params;
   }
 
