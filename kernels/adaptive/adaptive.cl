@@ -5,7 +5,6 @@
 //   in : ao         of the base pass, 1 = open .. 0 = closed; 1 on background
 //   out: important  1 where AO varies by least_range or more within a tile and one pixel of the base pass around it; else 0
 // -D PIXELS (of the base pass, per tile and axis)
-#include "adaptive/params.h"
 #include "shared/lanes/load.h"
 
 // in : ao

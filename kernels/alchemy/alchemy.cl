@@ -11,7 +11,7 @@
 // out: ao_raw        1 = open .. 0 = closed, unfiltered; 1 on background
 // -D SAMPLES, TURNS, SCALABLE, LEVELS, POWER, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS, MASKED, STOCHASTIC, EARLY_OUT, COMPENSATED;
 //    LEVEL (sao_level)
-#include "alchemy/params.h"
+#include "shared/sampling/ambient_occlusion.h"
 #include "estimators/alchemy.h"
 #ifndef LEVEL
 #include "shared/sampling/spiral.h"

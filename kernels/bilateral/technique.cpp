@@ -1,5 +1,15 @@
-#include "bilateral/params.h"
+#include "shared/both/params.h"
+#include "shared/filter/bilateral_params.h"
 #include "technique/ambient_occlusion.h"
+
+#define BILATERAL_FILTER_PARAMS(P)                                        \
+  P(float, radius, 0.5f, 0, INFINITY, "scene units",                      \
+    "radius of the estimate to be filtered: the unit of depth_tolerance") \
+  BILATERAL_PARAMS(P)                                                     \
+  P(choice, form, separable, (separable, square),                         \
+    "one pass along rows and one along columns, or one pass over the whole square")
+
+PARAMS(BilateralParams, BILATERAL_FILTER_PARAMS)
 
 namespace gloam::techniques {
 namespace {

@@ -10,7 +10,6 @@
 // then                         shared/sampling/cells.h
 // -D SCALE (pixels per cell), STEPS, POINT
 #include "contact_shadow/light_ray.h"
-#include "contact_shadow/params.h"
 #include "shared/filter/subsample.h"
 #include "shared/sampling/cells.h"
 

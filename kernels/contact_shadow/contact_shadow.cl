@@ -5,7 +5,6 @@
 // out: contact          1: light arrives, 0: it does not, or the surface faces away; 1 on background
 // -D STEPS, POINT, JITTER, MASKED
 #include "contact_shadow/light_ray.h"
-#include "contact_shadow/params.h"
 #include "shared/lanes/wanted.h"
 
 // A sample stands for its own pixel, so that what is thinner than a step of the ray is met. (For all that lies between two samples it

@@ -17,7 +17,7 @@
 // corner_find
 //   in : occluders           the hidden depths, in place of the depth
 // -D SCALE (pixels per cell), DIRECTIONS, STEPS, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS
-#include "corner_mask/params.h"
+#include "shared/sampling/ambient_occlusion.h"
 #include "shared/filter/subsample.h"
 #include "shared/sampling/cells.h"
 #include "shared/sampling/fan.h"

@@ -2,7 +2,6 @@
 //
 // in : depth        view-space z, +inf = background
 // out: reflectance  at normal incidence, 0 to 1; 0 on background
-#include "dielectric/params.h"
 #include "shared/frame/camera.h"
 
 // in : depth

@@ -7,7 +7,7 @@
 #include "estimators/bent_normal.h"
 #include "estimators/extent.h"
 #include "estimators/sectors.h"
-#include "evidence/params.h"
+#include "shared/sampling/ambient_occlusion.h"
 #include "shared/filter/isolated.h"
 #include "shared/sampling/slice_steps.h"
 

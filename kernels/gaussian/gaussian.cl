@@ -9,7 +9,6 @@
 // in : sum, weight      depth
 // out: result  filtered; 1 on background and where it is not wanted
 // -D HALF_WIDTH, MASKED (wanted.h)
-#include "gaussian/params.h"
 #include "shared/frame/camera.h"
 #include "shared/lanes/wanted.h"
 

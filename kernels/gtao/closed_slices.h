@@ -7,7 +7,7 @@
 #include "estimators/arc.h"
 #include "estimators/bent_normal.h"
 #include "estimators/sectors.h"
-#include "gtao/params.h"
+#include "shared/sampling/ambient_occlusion.h"
 #include "shared/sampling/slice_steps.h"
 
 #if LIGHT

@@ -11,7 +11,7 @@
 // -D DIRECTIONS, STEPS, JITTER, NO_FALLOFF, LINEAR_FALLOFF, COSINE_WEIGHTED, OUTSIDE_OPEN, OCCLUDERS_LAYERS, MASKED,
 //    STOCHASTIC, EARLY_OUT, COMPENSATED
 #include "estimators/horizon.h"
-#include "hbao/params.h"
+#include "shared/sampling/ambient_occlusion.h"
 #include "shared/sampling/fan.h"
 
 #if STOCHASTIC

@@ -11,7 +11,6 @@
 // -D DIRECTIONS, STEPS, POWER, JITTER, NO_FALLOFF, OUTSIDE_OPEN, OCCLUDERS_LAYERS, MASKED, STOCHASTIC, EARLY_OUT, COMPENSATED,
 //    MULTIVIEW, STEREO, ESTIMATE_MONO, WITH_HALF_OCCLUSION
 #include "estimators/obscurance.h"
-#include "hbao_plus/params.h"
 #include "shared/sampling/fan.h"
 
 #if STOCHASTIC

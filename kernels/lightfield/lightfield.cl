@@ -23,7 +23,7 @@
 //                joins `newly_visible`
 // -D ESTIMATE (1: ssao, 2: hbao+, 3: the mask), REUSE, FROM_BOTH, MASKED (wanted.h), OUTSIDE_OPEN, JITTER,
 //    SCALE (pixels per cell); SAMPLES, RADII, HEMISPHERE, OWN_POINTS, SINGLE_POINTS; DIRECTIONS, STEPS, NO_FALLOFF
-#include "lightfield/params.h"
+#include "shared/sampling/ambient_occlusion.h"
 #include "lightfield/spot.h"
 #if ESTIMATE > 1
 #include "shared/sampling/fan.h"

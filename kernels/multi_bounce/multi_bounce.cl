@@ -8,7 +8,6 @@
 //      albedo   0 to 1
 // out: bounces  1 = as from an open white sky; 1 on background
 // -D JIMENEZ
-#include "multi_bounce/params.h"
 #include "shared/lanes/load.h"
 #include "shared/lanes/math.h"
 

@@ -13,7 +13,6 @@
 //      ao_raw  1 = open .. 0 = closed; 1 on background (level 0)
 // -D MASKED (wanted.h), LEVEL, LEVELS, COARSER, SAMPLES, WITH_MEAN, JITTER, NO_FALLOFF, OUTSIDE_OPEN, SCALE (2)
 #include "estimators/obscurance.h"
-#include "multires/params.h"
 #include "shared/filter/subsample.h"
 #include "shared/filter/upsample.h"
 #include "shared/lanes/wanted.h"

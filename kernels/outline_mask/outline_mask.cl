@@ -7,7 +7,6 @@
 //                     section 3.1)
 //                     1 - occlusion there, else 1; 1 on background (outline_ao, section 5, before the filter)
 // -D STAND_ALONE, MASKED
-#include "outline_mask/params.h"
 #include "shared/frame/camera.h"
 #include "shared/lanes/wanted.h"
 

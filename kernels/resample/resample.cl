@@ -7,7 +7,6 @@
 // reduced.
 // -D SCALE, SOURCE_LAYERS (subsample_stack), OUTSIDE (joint_upsample, _color, _color_alpha: the value of background and of unknown
 //    pixels), UNIT_INTERVAL (1: the plane is at most 1), TWO_VIEWS, COMPONENTS (joint_upsample_of_both)
-#include "resample/params.h"
 #include "shared/filter/upsample.h"
 #include "shared/lanes/wanted.h"
 #if TWO_VIEWS

@@ -14,7 +14,6 @@
 #include "shared/filter/bilateral.h"
 #include "shared/rays/ggx.h"
 #include "specular_occlusion/caps.h"
-#include "specular_occlusion/params.h"
 #include "specular_occlusion/powers.h"
 
 // A pixel's surface, and how the eye sees it.

@@ -10,7 +10,7 @@
 #include "estimators/ball.h"
 #include "estimators/bent_normal.h"
 #include "shared/sampling/ball.h"
-#include "ssao/params.h"
+#include "shared/sampling/ambient_occlusion.h"
 
 #if STOCHASTIC
 #include "shared/sampling/hidden_depths.h"

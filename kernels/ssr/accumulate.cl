@@ -9,7 +9,6 @@
 // -D MASKED
 #include "shared/frame/history.h"
 #include "shared/lanes/wanted.h"
-#include "ssr/params.h"
 #include "ssr/virtual_image.h"
 
 // A reflection moves as its virtual image does, if what it shows stands still; otherwise, and on rough surfaces, it moves with the

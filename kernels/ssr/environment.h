@@ -2,7 +2,6 @@
 #ifndef GLOAM_SSR_ENVIRONMENT_H
 #define GLOAM_SSR_ENVIRONMENT_H
 
-#include "ssr/params.h"
 #include "ssr/reflector.h"
 
 #ifdef ENVIRONMENT_SIZE

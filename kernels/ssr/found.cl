@@ -3,7 +3,6 @@
 // in : roughness         perceptual
 //      ray_density, met  ray.h
 // out: found             1 or 0
-#include "ssr/params.h"
 #include "ssr/ray.h"
 
 // 1 where a surface's mirror ray meets something, or where the surface is so rough that this ray alone does not tell.

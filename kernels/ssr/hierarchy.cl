@@ -8,7 +8,6 @@
 // -D TRAVERSAL, LEVELS; LEVEL (ssr_level)
 #include "shared/lanes/pixel_list.h"
 #include "shared/rays/screen_ray.h"
-#include "ssr/params.h"
 
 // in : depth; back_depth
 // out: nearness, list; farness, others

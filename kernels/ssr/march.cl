@@ -10,7 +10,6 @@
 // -D LEVELS, BOTH_DEPTHS, RAYS, STEREO, TRAVERSAL, IN_OTHER
 #include "shared/lanes/pixel_list.h"
 #include "shared/lanes/wanted.h"
-#include "ssr/params.h"
 #include "ssr/ray.h"
 
 // Whether what a pixel shows rises over the surface that the ray starts from. If not, it is that surface.

@@ -8,7 +8,6 @@
 #include "shared/lanes/wanted.h"
 #include "shared/rays/screen_ray.h"
 #include "shared/sampling/sample.h"
-#include "ssr/params.h"
 #include "ssr/reflector.h"
 
 // Direction of ray k of a pixel, and its density: 0 where the ray would lead below the surface.

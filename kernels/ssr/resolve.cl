@@ -12,7 +12,6 @@
 #include "shared/lanes/wanted.h"
 #include "shared/rays/screen_ray.h"
 #include "ssr/environment.h"
-#include "ssr/params.h"
 #include "ssr/reflector.h"
 #if REPROJECTION
 #include "ssr/virtual_image.h"

@@ -13,7 +13,6 @@
 // -D RAYS, STEREO, TRAVERSAL, FADE
 #include "shared/lanes/pixel_list.h"
 #include "ssr/environment.h"
-#include "ssr/params.h"
 #include "ssr/ray.h"
 
 static inline real3 gather_radiance(PLANE r, PLANE g, PLANE b, integer i) {

@@ -4,7 +4,6 @@
 // in : depth, other_depth  view-space z of either eye, scene units, +inf = background
 // out: seen_by_both        1 where both eyes see the surface, else 0
 #include "shared/stereo/visibility.h"
-#include "stereo/params.h"
 
 #ifdef COLUMNS
 #include "shared/stereo/filter.h"

@@ -7,7 +7,6 @@
 // -D SAMPLES, HASHED, PEEL_LAYERS
 #include "shared/lanes/load.h"
 #include "shared/both/stochastic.h"
-#include "stochastic_depth/params.h"
 
 static inline natural subset_of(natural hash, uint alpha) {
 #if HASHED

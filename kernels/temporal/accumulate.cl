@@ -14,7 +14,6 @@
 #include "shared/lanes/components.h"
 #include "shared/lanes/load.h"
 #include "shared/sampling/sample.h"
-#include "temporal/params.h"
 
 // Of a value over neighbours: the squared difference of this frame's mean from that of the frame before, and the variance in this
 // frame.

@@ -8,7 +8,6 @@
 // distance_down    in : moving of distance_across; out: tiles_away, in tiles along the longer of the two axes
 // -D TILE (pixels), REACH (tiles)
 #include "shared/lanes/load.h"
-#include "temporal/params.h"
 
 // in : moved
 // out: moving

@@ -11,7 +11,6 @@
 #include "shared/frame/history.h"
 #include "shared/frame/neighbour.h"
 #include "shared/lanes/components.h"
-#include "temporal/params.h"
 
 #ifndef WITH_MOTION
 #define WITH_MOTION 0

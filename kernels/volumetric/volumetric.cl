@@ -8,7 +8,7 @@
 // -D SAMPLES, JITTER, OUTSIDE_OPEN, OCCLUDERS_LAYERS, MASKED
 #include "estimators/column.h"
 #include "shared/sampling/disk.h"
-#include "volumetric/params.h"
+#include "shared/sampling/ambient_occlusion.h"
 
 // What is the same for all samples of a row of pixels.
 typedef struct {
