@@ -59,7 +59,7 @@ static inline real found_in(Frame f, PROJECTIONS own, PROJECTIONS key, Params pa
 }
 
 // Copies a key view's AO, which was computed without the mask, for the pixels that the mask wants.
-// in : ao_of_key
+// in : ao_of_key; wanted
 // out: ao_raw
 kernel void lightfield_key(ARGUMENTS) {
   SKIP_UNWANTED(frame, store((real)(1), ao_raw, here))
@@ -67,7 +67,7 @@ kernel void lightfield_key(ARGUMENTS) {
   store(choose(is_wanted, load(ao_of_key, here), (real)(1)), ao_raw, here);
 }
 
-// in : depth, position, key_depth, key_position, key_ao, far_depth, far_position, far_ao
+// in : depth, position, key_depth, key_position, key_ao, far_depth, far_position, far_ao; wanted
 // out: ao_raw, newly_visible
 kernel void lightfield_reuse(ARGUMENTS) {
   SKIP_UNWANTED(frame, store((real)(1), ao_raw, here))

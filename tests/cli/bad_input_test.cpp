@@ -46,6 +46,7 @@ TEST_F(Cli, WrongUsage) {
   expect_refused(gloam({"list"}), 2, {"what is listed is missing", "techniques"});
   expect_refused(gloam({"list", "--kernel", "gtao/estimat"}), 2, {"'gtao/estimat'", "did you mean 'gtao/estimate'"});
   expect_refused(gloam({"list", "--kernel", "gtoa/estimate"}), 2, {"'gtoa'", "did you mean 'gtao'"});
+  expect_refused(gloam({"list", "--kernel", "temporal/x"}), 2, {"'temporal/x'", "temporal/accumulate"});
   expect_refused(gloam({"compare", loggia, loggia_truth, "-o", path("d.jpg")}), 2, {".png"});
   const Result far = gloam({"compare", loggia, loggia_truth, "--tol", "1"});
   expect_refused(far, 2, {"no flag '--tol'"});

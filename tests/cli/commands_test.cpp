@@ -96,6 +96,9 @@ TEST_F(Cli, ListsTheTextThatTheCompilerOfKernelsGets) {
     EXPECT_NE(shown.out.find(part), std::string::npos) << part;
   EXPECT_EQ(gloam({"list", "--kernel", "dp-indirect/estimate"}).status, 0) << "reads stacks";
   EXPECT_EQ(gloam({"list", "--kernel", "stereo-ssr/see"}).status, 0) << "reads the other eye";
+  for (const char* of_plans : {"resample/upsample ao", "resample/upsample reflectance", "mask/bits", "adaptive/tiles",
+                               "temporal/accumulate", "gtao/estimate of the rest"})
+    EXPECT_EQ(gloam({"list", "--kernel", of_plans}).status, 0) << of_plans;
 }
 
 TEST_F(Cli, QuietTellsErrorsButNoNotes) {

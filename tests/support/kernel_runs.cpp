@@ -118,18 +118,23 @@ Runs reduced_runs(const Technique& technique, const Coverage& coverage) {
   return runs;
 }
 
-/// On modules whose rays change evenly over the image and on others, with views that read one another; none for a technique
-/// whose views do not.
+/// On modules whose rays change evenly over the image and on others, with views that read one another, and with a mask; none for a
+/// technique whose views do not.
 Runs module_runs(const Technique& technique, const Coverage& coverage) {
   Runs runs;
   if (!technique.key_views) return runs;
   for (const NamedDisplay& test : display_cases()) {
-    const Frame frame = shoot_modules(test.display, coverage.width, coverage.height, room());
+    Frame frame = shoot_modules(test.display, coverage.width, coverage.height, room());
+    for (View& view : frame.views)
+      plane_of(view, Layout(coverage.width, coverage.height), "mask").channels[0].at(coverage.width / 2, 0) = 1;
     for (const char* key_views : {"2", "3"}) {
       if (key_views != std::string("2") && !coverage.every_setting) continue;
       const Settings reuse = {{"reuse", "on"}, {"key_views", key_views}};
-      runs.push_back(planned(test.name + ", " + text_of(reuse), frame,
-                             {.outputs = {technique.name}, .settings = few_samples(technique) + reuse}));
+      PlanRequest request{.outputs = {technique.name}, .settings = few_samples(technique) + reuse};
+      runs.push_back(planned(test.name + ", " + text_of(reuse), frame, request));
+      if (!coverage.every_setting) continue;
+      request.only = "mask";
+      runs.push_back(planned(test.name + ", masked, " + text_of(reuse), frame, request));
     }
   }
   return runs;

@@ -24,8 +24,8 @@ void print_technique(const Technique& technique, const std::set<std::string>& se
 /// Prints docs/techniques.md: one section per technique.
 void print_techniques_markdown();
 
-/// Prints the text that the compiler gets for a pass, by its name ("gtao/estimate"), of its technique's default plan for a frame
-/// that has every plane. Throws UsageError, with the nearest name, for an unknown one.
+/// Prints the text that the compiler gets for a pass, by its name: of a technique's plan for a frame that has every plane
+/// ("gtao/estimate"), or of what plans add ("temporal/accumulate"). Throws UsageError, with the nearest name, for an unknown one.
 void print_kernel(const std::string& label);
 
 }  // namespace gloam::cli
