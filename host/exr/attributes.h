@@ -7,6 +7,10 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
+
+#include "exr/headers.h"
 
 namespace gloam {
 
@@ -24,5 +28,9 @@ std::optional<glm::dvec3> origin_attribute(const Imf::Header& header, const std:
 
 /// `gloamLight`, the direction towards the sun in the world, made unit; none if the header lacks it or it is no direction.
 std::optional<glm::dvec3> light_attribute(const Imf::Header& header);
+
+/// Names and values of the attributes of all parts, in file order; of further parts those that the first has not, or otherwise, after
+/// the part's name. Long values are cut. Channels, and types that gloam does not know, are left out.
+std::vector<std::pair<std::string, std::string>> attribute_texts(const Headers& headers);
 
 }  // namespace gloam

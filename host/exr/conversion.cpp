@@ -4,10 +4,10 @@
 #include "exr/assumed_camera.h"
 #include "exr/depth.h"
 #include "exr/fills.h"
-#include "exr/radiance.h"
 #include "exr/view_planes.h"
 #include "gloam/error.h"
 #include "gloam/option.h"
+#include "gloam/unfit.h"
 #include "normalise/normalise.h"
 
 namespace gloam {
@@ -77,6 +77,25 @@ void convert_planes(const ExrFile& file, const FileCameras& cameras, Frame& fram
 void finish_frame(const ExrFile& file, Frame& frame) {
   if (!file.options.unconverted) normalise_planes(frame, file.options.background, file.options.as_stored);
   for (std::string& sentence : frame.assumed) sentence = printable(sentence);
+}
+
+void note_light(const ExrFile& file, const LightCounts& counts, Frame& frame) {
+  std::vector<std::string> judged;  // a user who names a channel means it
+  for (const char* plane : {"color", "albedo"})
+    if (!file.options.channels.contains(plane)) judged.emplace_back(plane);
+  if (counts.color.pixels > 0) {
+    for (const View& view : frame.views) {
+      const PlaneSource* color = file.source("color", view.name);
+      if (!color || color->channels.empty()) continue;
+      const std::string space = file.headers.text_for_part(color->channels.front().part, "colorInteropID");
+      if (is_linear(space)) continue;
+      const std::string why = fmt::format(
+          "the header's colorInteropID '{}' names no scene-linear light, and the values are taken for it as they are",
+          space);
+      add_new(frame.assumed, contains(judged, "color") ? note_on({"color", why}) : "color: " + why);
+    }
+  }
+  add_new(frame.assumed, counts.notes(judged));
 }
 
 }  // namespace gloam

@@ -8,6 +8,7 @@
 #include "exr/file_cameras.h"
 #include "exr/normals.h"
 #include "gloam/frame.h"
+#include "normalise/radiance.h"
 
 namespace gloam {
 
@@ -34,5 +35,8 @@ void convert_planes(const ExrFile& file, const FileCameras& cameras, Frame& fram
 
 /// Finishes a converted frame: the background, the length of normals, padding; makes the notes printable.
 void finish_frame(const ExrFile& file, Frame& frame);
+
+/// Adds notes on the values counted, and on a header that calls the colour of one of the frame's views other than linear.
+void note_light(const ExrFile& file, const LightCounts& counts, Frame& frame);
 
 }  // namespace gloam

@@ -8,7 +8,7 @@
 #include "base/files.h"
 #include "base/lists.h"
 #include "exr/added_parts.h"
-#include "exr/attribute_texts.h"
+#include "exr/attributes.h"
 #include "exr/conversion.h"
 #include "exr/decode_planes.h"
 #include "exr/depth.h"

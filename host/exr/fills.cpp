@@ -47,6 +47,18 @@ const Fill& fill_of(const std::string& plane) {
 
 }  // namespace
 
+void FilledPixels::add(const Plane& plane, const Channel& depth, int first_row) {
+  const Layout& layout = plane.channels.front().layout();
+  for (int y = 0; y < layout.height; ++y) {
+    for (int x = 0; x < layout.width; ++x) {
+      if (is_background(depth.at(x, first_row + y))) continue;
+      ++surfaces;
+      filled += std::all_of(plane.channels.begin(), plane.channels.end(),
+                            [&](const Channel& c) { return c.at(x, y) == value; });
+    }
+  }
+}
+
 Fills::Fills(const ExrFile& file, const std::string& view) {
   for (const Fill& fill : fills) {
     const PlaneSource* source = file.source(fill.plane, view);

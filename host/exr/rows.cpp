@@ -8,11 +8,11 @@
 
 #include "base/lists.h"
 #include "exr/assumed_camera.h"
+#include "exr/conversion.h"
 #include "exr/decode_planes.h"
 #include "exr/depth.h"
 #include "exr/fills.h"
 #include "exr/memory.h"
-#include "exr/radiance.h"
 #include "gloam/error.h"
 #include "normalise/normalise.h"
 #include "normalise/normals.h"

@@ -1,3 +1,5 @@
+#include "gloam/device.h"
+
 #include <dlfcn.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -10,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <new>
+#include <nlohmann/json.hpp>
 
 #include "base/words.h"
 #include "gloam/error.h"
@@ -18,11 +21,28 @@
 #include "run/device_record.h"
 #include "run/driver.h"
 #include "run/kept_folders.h"
-#include "run/known_devices.h"
+#include "technique/data_files.h"
 #include "technique/kernel_sources.h"
 
 namespace gloam {
 namespace {
+
+/// What the table says of a kind of device.
+struct KnownDevice {
+  Tuning tuning;
+  bool keeps_kernels = false;  ///< the driver keeps compiled kernels on disk by itself
+};
+
+/// The first row of the table that fits a device. `vector_width`: floats per vector that the driver prefers.
+KnownDevice known_device(const DeviceInfo& info, int vector_width) {
+  static const nlohmann::json table = nlohmann::json::parse(data_files().at("devices.json"));
+  for (const nlohmann::json& row : table) {
+    const bool fits = row.value("platform", info.platform) == info.platform &&
+                      row.value("type", info.type) == info.type && row.value("vector", 0) <= vector_width;
+    if (fits) return {{row.at("lanes"), row.at("group")}, row.value("keeps_kernels", false)};
+  }
+  return {};
+}
 
 std::string trimmed(std::string text) {
   while (!text.empty() && (text.back() == '\0' || std::isspace((unsigned char)text.back()))) text.pop_back();

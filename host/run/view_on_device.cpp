@@ -42,6 +42,97 @@ void fill(ViewOnDevice& target, const Plan& plan) {
 
 }  // namespace
 
+void Buffers::upload(const Plane& plane) {
+  for (const Channel& channel : plane.channels) {
+    const cl_mem_flags flags =
+        CL_MEM_READ_ONLY | (device_.info.shares_memory ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR);
+    buffers_[plane.name].emplace_back(device_.context, flags, channel.layout().bytes(),
+                                      const_cast<float*>(channel.data()));
+  }
+}
+
+void Buffers::upload_stack(const std::string& name, const std::vector<const Plane*>& layers) {
+  const size_t bytes = layers.front()->channels.front().layout().bytes();
+  cl::Buffer buffer(device_.context, CL_MEM_READ_ONLY, layers.size() * bytes);
+  for (size_t i = 0; i < layers.size(); ++i) {
+    device_.queue.enqueueWriteBuffer(buffer, CL_TRUE, i * bytes, bytes, layers[i]->channels.front().data());
+  }
+  buffers_[name].push_back(std::move(buffer));
+}
+
+void Buffers::allocate_stack(const std::string& name, const Layout& layout, size_t layers) {
+  cl::Buffer buffer(device_.context, CL_MEM_READ_WRITE, layers * layout.bytes());
+  device_.queue.enqueueFillBuffer(buffer, plane_kind(name).outside, 0, layers * layout.bytes());
+  buffers_[name].push_back(std::move(buffer));
+}
+
+void Buffers::allocate(const std::string& name, const Layout& layout) {
+  const PlaneKind kind = plane_kind(name);
+  for (size_t i = 0; i < kind.components.size(); ++i) {
+    if (device_.info.shares_memory) {
+      Channel channel(layout);
+      channel.fill_padding(kind.outside);
+      buffers_[name].emplace_back(device_.context, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, layout.bytes(),
+                                  channel.data());
+      host_[name].push_back(std::move(channel));
+    } else {
+      cl::Buffer buffer(device_.context, CL_MEM_READ_WRITE, layout.bytes());
+      const size_t guard = Layout::guard * sizeof(float);
+      device_.queue.enqueueFillBuffer(buffer, kind.outside, 0, guard);
+      device_.queue.enqueueFillBuffer(buffer, kind.outside, layout.bytes() - guard, guard);
+      buffers_[name].push_back(std::move(buffer));
+    }
+  }
+}
+
+std::vector<Plane> Buffers::download_stack(const std::string& name, const Layout& layout, size_t layers) {
+  std::vector<Plane> planes;
+  const PlaneKind kind = plane_kind(name);
+  for (size_t i = 0; i < layers; ++i) {
+    Plane plane{layer_name(name, int(i)), {}};
+    Channel& channel = plane.channels.emplace_back(layout);
+    device_.queue.enqueueReadBuffer(buffers_.at(name).front(), CL_TRUE, i * layout.bytes(), layout.bytes(),
+                                    channel.data());
+    channel.fill_padding(kind.outside);
+    planes.push_back(std::move(plane));
+  }
+  return planes;
+}
+
+Channel Buffers::download_bits(const std::string& name, const Layout& layout) {
+  Channel bits(layout);
+  device_.queue.enqueueReadBuffer(buffers_.at(name).front(), CL_TRUE, 0, layout.bytes(), bits.data());
+  return bits;
+}
+
+int Buffers::length_of_list(const std::string& name) {
+  cl_int length = 0;
+  device_.queue.enqueueReadBuffer(buffers_.at(name).front(), CL_TRUE, 0, sizeof length, &length);
+  return length;
+}
+
+Plane Buffers::download(const std::string& name, const Layout& layout) {
+  const PlaneKind kind = plane_kind(name);
+  Plane plane{name, {}};
+  for (size_t i = 0; i < kind.components.size(); ++i) {
+    cl::Buffer& buffer = buffers_.at(name)[i];
+    if (device_.info.shares_memory) {
+      // Mapping makes the device's result visible to the host.
+      void* mapped = device_.queue.enqueueMapBuffer(buffer, CL_TRUE, CL_MAP_READ, 0, layout.bytes());
+      device_.queue.enqueueUnmapMemObject(buffer, mapped);
+      plane.channels.push_back(std::move(host_.at(name)[i]));
+    } else {
+      Channel channel(layout);
+      device_.queue.enqueueReadBuffer(buffer, CL_TRUE, 0, layout.bytes(), channel.data());
+      plane.channels.push_back(std::move(channel));
+    }
+  }
+  device_.queue.finish();
+  buffers_.erase(name);  // before the host touches the pages that the buffer used
+  for (Channel& channel : plane.channels) channel.fill_padding(kind.outside);
+  return plane;
+}
+
 ViewOnDevice view_on_device(const Plan& plan, const Frame& frame, const View& view, Device::Impl& device) {
   const Layout layout(frame.width(), frame.height());
   ViewOnDevice target{frame, view, layout, Layouts(plan, layout), Buffers(device)};

@@ -1,15 +1,15 @@
 #include "gloam/scene/capture.h"
 
-#ifdef _OPENMP
 #include <omp.h>
-#endif
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <exception>
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <mutex>
+#include <optional>
 
 #include "base/elapsed.h"
 #include "base/lists.h"
@@ -19,15 +19,91 @@
 #include "gloam/projection.h"
 #include "gloam/scene/camera_ray.h"
 #include "gloam/scene/radiance.h"
+#include "gloam/scene/tracer.h"
 #include "scene/capture_options.h"
 #include "scene/capture_target.h"
-#include "scene/captured_pixels.h"
-#include "scene/earlier_position.h"
-#include "scene/outline_counter.h"
 #include "scene/stochastic_map.h"
 
 namespace gloam {
 namespace {
+
+/// Counts the outlines that contain the visible surfaces of one view.
+class OutlineCounter {
+ public:
+  OutlineCounter(const Outlines* outlines, const Camera& camera, const CaptureTarget& target);
+
+  /// Counts for a row whose depths are filled.
+  void row(int y) const;
+
+ private:
+  const Outlines* outlines_;
+  const Camera& camera_;
+  const CaptureTarget& target_;
+  std::optional<int> at_eye_;
+};
+
+OutlineCounter::OutlineCounter(const Outlines* outlines, const Camera& camera, const CaptureTarget& target)
+    : outlines_(outlines), camera_(camera), target_(target) {
+  if (!outlines_ || camera.orthographic || camera.slits) return;
+  at_eye_ = outlines_->around(camera.pose->position - outlines_->scene().origin);
+}
+
+void OutlineCounter::row(int y) const {
+  if (!outlines_) return;
+  for (int x = 0; x < target_.depth->layout().width; ++x) {
+    if (!shows(camera_, x, y)) continue;
+    // From the eye on, whatever the near plane hides: an outline before that plane contains the eye too.
+    TracerRay ray = camera_ray(camera_, outlines_->scene().origin, x + 0.5, y + 0.5);
+    const float depth = target_.depth->at(x, y);
+    ray.far = is_background(depth) ? far_of(camera_) : double(depth);
+    // Each orthographic ray has its own start; most starts have nothing behind them.
+    const int at_start = at_eye_ ? *at_eye_ : outlines_->around(ray.origin, -ray.direction);
+    target_.outline_count->at(x, y) = float(at_start + outlines_->crossings(ray));
+  }
+}
+
+using glm::dvec3;
+
+/// Weights of a triangle's corners, whose sum is 1, for a point in its plane.
+dvec3 weights_at(const dvec3 (&corners)[3], const dvec3& point) {
+  const dvec3 u = corners[1] - corners[0], v = corners[2] - corners[0], p = point - corners[0];
+  const dvec3 normal = glm::cross(u, v);
+  const double area = glm::dot(normal, normal);
+  if (area == 0) return {1, 0, 0};
+  const double b = glm::dot(glm::cross(p, v), normal) / area, c = glm::dot(glm::cross(u, p), normal) / area;
+  return {1 - b - c, b, c};
+}
+
+/// Position in the world, in `before`, of the point of a triangle that a surface of `now` shows: the same mesh, triangle and
+/// barycentric coordinates. Where the triangle has not moved, the surface's position itself.
+dvec3 earlier_position(const Scene& now, const Scene& before, const Surface& surface) {
+  const Mesh &mesh = now.meshes[size_t(surface.mesh)], &moved = before.meshes[size_t(surface.mesh)];
+  const glm::uvec3& triangle = mesh.triangles[surface.triangle];
+  dvec3 corners[3], earlier[3];
+  bool has_moved = now.origin != before.origin;
+  for (int i = 0; i < 3; ++i) {
+    corners[i] = mesh.positions[triangle[i]];
+    earlier[i] = moved.positions[triangle[i]];
+    has_moved |= corners[i] != earlier[i];
+  }
+  if (!has_moved) return surface.position + now.origin;
+  const dvec3 weights = weights_at(corners, surface.position);
+  return weights.x * earlier[0] + weights.y * earlier[1] + weights.z * earlier[2] + before.origin;
+}
+
+/// Throws UsageError if the scenes differ in more than where their vertices are.
+void check_earlier_scene(const Scene& now, const Scene& before) {
+  if (now.meshes.size() != before.meshes.size())
+    throw UsageError("the scene has {} meshes, and the one of the frame before {}; for motion both need the same ones",
+                     now.meshes.size(), before.meshes.size());
+  for (size_t i = 0; i < now.meshes.size(); ++i) {
+    const Mesh &mesh = now.meshes[i], &earlier = before.meshes[i];
+    if (mesh.triangles == earlier.triangles && mesh.positions.size() == earlier.positions.size()) continue;
+    throw UsageError(
+        "mesh '{}' has other triangles than in the scene of the frame before; for motion only vertices may move",
+        mesh.name);
+  }
+}
 
 using glm::dvec3;
 using glm::vec3;

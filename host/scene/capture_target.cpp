@@ -1,10 +1,12 @@
 #include "scene/capture_target.h"
 
 #include <iterator>
+#include <limits>
 #include <string>
 
 #include "base/lists.h"
 #include "gloam/planes.h"
+#include "gloam/projection.h"
 
 namespace gloam {
 namespace {
@@ -64,6 +66,12 @@ CaptureTarget capture_target(View& view, const CaptureOptions& options, const La
   for (int i = 0; i < options.stochastic.samples; ++i)
     target.stochastic.push_back(add_channel(view, layer_name("stochastic", i), layout));
   return target;
+}
+
+double far_of(const Camera& camera) { return camera.far.value_or(std::numeric_limits<double>::infinity()); }
+
+bool shows(const Camera& camera, int x, int y) {
+  return !camera.slits || view_ray(camera, {x + 0.5, y + 0.5}).has_value();
 }
 
 }  // namespace gloam

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <vector>
 
+#include "gloam/camera.h"
 #include "gloam/scene/capture.h"
 
 namespace gloam {
@@ -31,5 +32,11 @@ void put(const Channels& channels, int x, int y, const Vector& value) {
   if (!channels[0]) return;
   for (size_t i = 0; i < std::size(channels); ++i) channels[i]->at(x, y) = float(value[int(i)]);
 }
+
+/// The depth at which a view's frustum ends; infinite if the camera has no far plane.
+double far_of(const Camera& camera);
+
+/// Whether the image shows anything at a pixel: light of a display's module may miss the screen there.
+bool shows(const Camera& camera, int x, int y);
 
 }  // namespace gloam

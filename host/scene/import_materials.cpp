@@ -11,7 +11,7 @@
 #include <set>
 
 #include "gloam/error.h"
-#include "scene/image_decode.h"
+#include "scene/textures.h"
 
 namespace gloam {
 namespace {

@@ -17,7 +17,7 @@
 #include "gloam/scene/light_field_capture.h"
 #include "gloam/scene/sky_map.h"
 #include "gloam/visualise.h"
-#include "scene/moving_scene.h"
+#include "scene/scene_of_frame.h"
 
 namespace gloam::cli {
 namespace {
