@@ -15,6 +15,9 @@ function titleAbove(title, offset) {
   return {title, titleAngle: 0, titleAlign: 'left', titleAnchor: 'end', titleX: 0, titleY: -offset, titleBaseline: 'bottom'};
 }
 
+/// A mark for each row of `data`. `more`: further properties of the mark; `enter`: how a row is shown.
+const mark = (type, data, more, enter) => ({type, from: {data}, ...more, encode: {enter}});
+
 function theme() {
   const style = getComputedStyle(document.documentElement);
   const value = (name) => style.getPropertyValue('--' + name).trim();

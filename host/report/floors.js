@@ -35,65 +35,38 @@ function floorSpec({rows, width}) {
       },
     ],
     marks: [
-      {
-        type: 'rule',
-        from: {data: 'rows'},
-        encode: {
-          enter: {
-            x: {scale: 'x', field: 'floor'},
-            x2: {scale: 'x', field: 'ms'},
-            y,
-            stroke: {field: 'colour'},
-            strokeWidth: {value: 2},
-            strokeOpacity: {value: 0.45},
-            tooltip: {field: 'hover'}
-          }
-        }
-      },
-      {
-        type: 'rect',
-        name: 'floors',
-        from: {data: 'rows'},
-        encode: {
-          enter: {
-            xc: {scale: 'x', field: 'floor'},
-            width: {value: 3},
-            yc: y,
-            height: {value: 13},
-            fill: {value: colours.faint},
-            tooltip: {field: 'hover'}
-          }
-        }
-      },
-      {
-        type: 'symbol',
-        name: 'times',
-        from: {data: 'rows'},
-        encode: {
-          enter: {
-            x: {scale: 'x', field: 'ms'},
-            y,
-            size: {value: 85},
-            shape: {field: 'shape'},
-            fill: {field: 'colour'},
-            tooltip: {field: 'hover'}
-          }
-        }
-      },
-      {
-        type: 'text',
-        from: {data: 'rows'},
-        interactive: false,
-        encode: {
-          enter: {
-            x: {scale: 'x', field: 'ms', offset: 10},
-            y,
-            baseline: {value: 'middle'},
-            fill: {value: colours.faint},
-            text: {field: 'words'}
-          }
-        }
-      },
+      mark('rule', 'rows', {}, {
+        x: {scale: 'x', field: 'floor'},
+        x2: {scale: 'x', field: 'ms'},
+        y,
+        stroke: {field: 'colour'},
+        strokeWidth: {value: 2},
+        strokeOpacity: {value: 0.45},
+        tooltip: {field: 'hover'}
+      }),
+      mark('rect', 'rows', {name: 'floors'}, {
+        xc: {scale: 'x', field: 'floor'},
+        width: {value: 3},
+        yc: y,
+        height: {value: 13},
+        fill: {value: colours.faint},
+        tooltip: {field: 'hover'}
+      }),
+      mark('symbol', 'rows', {name: 'times'}, {
+        x: {scale: 'x', field: 'ms'},
+        y,
+        size: {value: 85},
+        shape: {field: 'shape'},
+        fill: {field: 'colour'},
+        tooltip: {field: 'hover'}
+      }),
+      mark('text', 'rows', {interactive: false}, {
+        x: {scale: 'x', field: 'ms', offset: 10},
+        y,
+        baseline: {value: 'middle'},
+        fill: {value: colours.faint},
+        text: {field: 'words'}
+      }),
     ],
   };
 }

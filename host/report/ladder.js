@@ -37,13 +37,7 @@ function ladderSpec({steps, count, bars, totals, width}) {
       {name: 'y', domain: [0, highest], range: 'height', nice: false},
     ],
     axes: [
-      {
-        scale: 'y',
-        orient: 'left',
-        grid: true,
-        tickCount: 5,
-        ...titleAbove('RMSE', 10)
-      },
+      {scale: 'y', orient: 'left', grid: true, tickCount: 5, ...titleAbove('RMSE', 10)},
       {
         scale: 'step',
         orient: 'bottom',
@@ -54,70 +48,42 @@ function ladderSpec({steps, count, bars, totals, width}) {
       },
     ],
     marks: [
-      {
-        type: 'rect',
-        name: 'bar_marks',
-        from: {data: 'bars'},
-        encode: {
-          enter: {
-            x: {scale: 'step', field: 'step', offset: {signal: `datum.index * bandwidth('step') / ${count}`}},
-            width: {signal: `max(1, bandwidth('step') / ${count} - 1.5)`},
-            y: {scale: 'y', field: 'value'},
-            y2: {scale: 'y', value: 0},
-            fill: {field: 'colour'},
-            fillOpacity: {field: 'opacity'},
-            stroke: {field: 'colour'},
-            strokeWidth: {value: 0.8},
-            tooltip: {field: 'hover'}
-          }
-        }
-      },
-      {
-        type: 'text',
-        name: 'missing_marks',
-        from: {data: 'missing'},
-        encode: {
-          enter: {
-            x: {scale: 'step', field: 'step', offset: {signal: `(datum.index + 0.5) * bandwidth('step') / ${count}`}},
-            y: {scale: 'y', value: 0, offset: -4},
-            align: {value: 'center'},
-            text: {value: '?'},
-            fill: {field: 'colour'},
-            tooltip: {field: 'hover'}
-          }
-        }
-      },
-      {
-        type: 'rule',
-        name: 'total_rules',
-        from: {data: 'totals'},
-        encode: {
-          enter: {
-            x: {value: 0},
-            x2: {signal: 'width'},
-            y: {scale: 'y', field: 'value'},
-            stroke: {field: 'colour'},
-            strokeOpacity: {field: 'opacity'},
-            strokeWidth: {value: 1.8},
-            strokeDash: {field: 'dash'},
-            tooltip: {field: 'hover'}
-          }
-        }
-      },
-      {
-        type: 'text',
-        from: {data: 'labelled'},
-        interactive: false,
-        encode: {
-          enter: {
-            x: {signal: 'width'},
-            y: {scale: 'y', field: 'value', offset: -4},
-            align: {value: 'right'},
-            text: {field: 'label'},
-            fill: {field: 'colour'}
-          }
-        }
-      },
+      mark('rect', 'bars', {name: 'bar_marks'}, {
+        x: {scale: 'step', field: 'step', offset: {signal: `datum.index * bandwidth('step') / ${count}`}},
+        width: {signal: `max(1, bandwidth('step') / ${count} - 1.5)`},
+        y: {scale: 'y', field: 'value'},
+        y2: {scale: 'y', value: 0},
+        fill: {field: 'colour'},
+        fillOpacity: {field: 'opacity'},
+        stroke: {field: 'colour'},
+        strokeWidth: {value: 0.8},
+        tooltip: {field: 'hover'}
+      }),
+      mark('text', 'missing', {name: 'missing_marks'}, {
+        x: {scale: 'step', field: 'step', offset: {signal: `(datum.index + 0.5) * bandwidth('step') / ${count}`}},
+        y: {scale: 'y', value: 0, offset: -4},
+        align: {value: 'center'},
+        text: {value: '?'},
+        fill: {field: 'colour'},
+        tooltip: {field: 'hover'}
+      }),
+      mark('rule', 'totals', {name: 'total_rules'}, {
+        x: {value: 0},
+        x2: {signal: 'width'},
+        y: {scale: 'y', field: 'value'},
+        stroke: {field: 'colour'},
+        strokeOpacity: {field: 'opacity'},
+        strokeWidth: {value: 1.8},
+        strokeDash: {field: 'dash'},
+        tooltip: {field: 'hover'}
+      }),
+      mark('text', 'labelled', {interactive: false}, {
+        x: {signal: 'width'},
+        y: {scale: 'y', field: 'value', offset: -4},
+        align: {value: 'right'},
+        text: {field: 'label'},
+        fill: {field: 'colour'}
+      }),
     ],
   };
 }
@@ -158,8 +124,10 @@ function renderLadder() {
   if (!any) {
     clearChart(place);
     return byId('ladder-table')
-        .replaceChildren(
-            element('p', {class: 'remark'}, `On ${scene} no step of the ladder is at hand for what is picked; gloam bench --ladder presets measures it.`));
+        .replaceChildren(element(
+            'p', {class: 'remark'},
+            `On ${
+                scene} no step of the ladder is at hand for what is picked; gloam bench --ladder presets measures it.`));
   }
   const bars = rows.flatMap(
       ({row, index, colour, opacity}) => steps.map(

@@ -88,53 +88,31 @@ function rooflineSpec({points, peaks, width}) {
       },
     ],
     marks: [
-      {
-        type: 'rule',
-        name: 'roof_lines',
-        from: {data: 'roofs'},
-        interactive: false,
-        encode: {
-          enter: {
-            x: {scale: 'x', field: 'x'},
-            x2: {scale: 'x', field: 'x2'},
-            y: {scale: 'y', field: 'y'},
-            y2: {scale: 'y', field: 'y2'},
-            stroke: {value: colours.front},
-            strokeWidth: {value: 1.4},
-            strokeOpacity: {value: 0.6}
-          }
-        }
-      },
-      {
-        type: 'text',
-        from: {data: 'roofs'},
-        interactive: false,
-        encode: {
-          enter: {
-            x: {scale: 'x', field: 'x2', offset: {signal: 'datum.flat ? -6 : -34'}},
-            y: {scale: 'y', field: 'y2', offset: {signal: 'datum.flat ? -7 : 16'}},
-            align: {value: 'right'},
-            fill: {value: colours.faint},
-            text: {field: 'name'}
-          }
-        }
-      },
-      {
-        type: 'symbol',
-        name: 'passes',
-        from: {data: 'points'},
-        encode: {
-          enter: {
-            ...at,
-            size: {value: 110},
-            shape: {field: 'shape'},
-            fill: {field: 'colour'},
-            fillOpacity: {field: 'opacity'},
-            stroke: {field: 'colour'},
-            tooltip: {field: 'hover'}
-          }
-        }
-      },
+      mark('rule', 'roofs', {name: 'roof_lines', interactive: false}, {
+        x: {scale: 'x', field: 'x'},
+        x2: {scale: 'x', field: 'x2'},
+        y: {scale: 'y', field: 'y'},
+        y2: {scale: 'y', field: 'y2'},
+        stroke: {value: colours.front},
+        strokeWidth: {value: 1.4},
+        strokeOpacity: {value: 0.6}
+      }),
+      mark('text', 'roofs', {interactive: false}, {
+        x: {scale: 'x', field: 'x2', offset: {signal: 'datum.flat ? -6 : -34'}},
+        y: {scale: 'y', field: 'y2', offset: {signal: 'datum.flat ? -7 : 16'}},
+        align: {value: 'right'},
+        fill: {value: colours.faint},
+        text: {field: 'name'}
+      }),
+      mark('symbol', 'points', {name: 'passes'}, {
+        ...at,
+        size: {value: 110},
+        shape: {field: 'shape'},
+        fill: {field: 'colour'},
+        fillOpacity: {field: 'opacity'},
+        stroke: {field: 'colour'},
+        tooltip: {field: 'hover'}
+      }),
     ],
   };
 }

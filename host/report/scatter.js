@@ -37,31 +37,17 @@ function scatterSpec({points, front, levels, base, picked, timeTitle, isRatio, w
         title: timeTitle,
         titlePadding: 8
       },
-      {
-        scale: 'y',
-        orient: 'left',
-        grid: true,
-        tickCount: 6,
-        ...titleAbove('error: RMSE to the truth', 12)
-      },
+      {scale: 'y', orient: 'left', grid: true, tickCount: 6, ...titleAbove('error: RMSE to the truth', 12)},
     ],
     marks: [
-      {
-        type: 'area',
-        from: {data: 'line'},
-        interactive: false,
-        clip: true,
-        encode: {
-          enter: {
-            x: at.x,
-            y: at.y,
-            y2: {value: 0},
-            interpolate: {value: 'step-after'},
-            fill: {value: colours.front},
-            fillOpacity: {value: 0.035}
-          }
-        }
-      },
+      mark('area', 'line', {interactive: false, clip: true}, {
+        x: at.x,
+        y: at.y,
+        y2: {value: 0},
+        interpolate: {value: 'step-after'},
+        fill: {value: colours.front},
+        fillOpacity: {value: 0.035}
+      }),
       ...(isRatio ? [{
         type: 'rule',
         interactive: false,
@@ -78,82 +64,40 @@ function scatterSpec({points, front, levels, base, picked, timeTitle, isRatio, w
         }
       }] :
                     []),
-      {
-        type: 'rule',
-        name: 'base_line',
-        from: {data: 'base'},
-        interactive: false,
-        encode: {
-          enter: {
-            x: {value: 0},
-            x2: {signal: 'width'},
-            y: at.y,
-            stroke: {value: colours.faint},
-            strokeDash: {value: [1, 3]}
-          }
-        }
-      },
-      {
-        type: 'rule',
-        name: 'level_rules',
-        from: {data: 'levels'},
-        encode: {
-          enter: {
-            x: {value: 0},
-            x2: {signal: 'width'},
-            y: at.y,
-            stroke: {field: 'colour'},
-            strokeWidth: {value: 1.4},
-            strokeDash: {value: [7, 4]},
-            tooltip: {field: 'hover'}
-          }
-        }
-      },
-      {
-        type: 'symbol',
-        name: 'level_stars',
-        from: {data: 'levels'},
-        encode: {
-          enter: {
-            x: {signal: 'width - 8'},
-            y: at.y,
-            size: {value: 110},
-            shape: {value: star},
-            fill: {field: 'colour'},
-            tooltip: {field: 'hover'}
-          }
-        }
-      },
-      {
-        type: 'text',
-        from: {data: 'levels'},
-        interactive: false,
-        encode: {
-          enter: {
-            x: {signal: 'width - 18'},
-            y: {scale: 'y', field: 'y', offset: -5},
-            align: {value: 'right'},
-            text: {field: 'label'},
-            fill: {field: 'colour'}
-          }
-        }
-      },
-      {
-        type: 'line',
-        name: 'front_line',
-        from: {data: 'line'},
-        interactive: false,
-        clip: true,
-        encode: {
-          enter: {
-            ...at,
-            interpolate: {value: 'step-after'},
-            stroke: {value: colours.front},
-            strokeWidth: {value: 1.4},
-            strokeOpacity: {value: 0.6}
-          }
-        }
-      },
+      mark(
+          'rule', 'base', {name: 'base_line', interactive: false},
+          {x: {value: 0}, x2: {signal: 'width'}, y: at.y, stroke: {value: colours.faint}, strokeDash: {value: [1, 3]}}),
+      mark('rule', 'levels', {name: 'level_rules'}, {
+        x: {value: 0},
+        x2: {signal: 'width'},
+        y: at.y,
+        stroke: {field: 'colour'},
+        strokeWidth: {value: 1.4},
+        strokeDash: {value: [7, 4]},
+        tooltip: {field: 'hover'}
+      }),
+      mark('symbol', 'levels', {name: 'level_stars'}, {
+        x: {signal: 'width - 8'},
+        y: at.y,
+        size: {value: 110},
+        shape: {value: star},
+        fill: {field: 'colour'},
+        tooltip: {field: 'hover'}
+      }),
+      mark('text', 'levels', {interactive: false}, {
+        x: {signal: 'width - 18'},
+        y: {scale: 'y', field: 'y', offset: -5},
+        align: {value: 'right'},
+        text: {field: 'label'},
+        fill: {field: 'colour'}
+      }),
+      mark('line', 'line', {name: 'front_line', interactive: false, clip: true}, {
+        ...at,
+        interpolate: {value: 'step-after'},
+        stroke: {value: colours.front},
+        strokeWidth: {value: 1.4},
+        strokeOpacity: {value: 0.6}
+      }),
       {
         type: 'symbol',
         name: 'halo',
@@ -275,7 +219,7 @@ function renderScatter() {
         picked: state.picked,
         width,
         isRatio: timeShown() === 'ratio',
-        timeTitle: !shown.length         ? 'no time was measured here' :
+        timeTitle: !shown.length    ? 'no time was measured here' :
             timeShown() === 'ratio' ? 'time over that of HBAO+ medium, in the same round' :
                                       'time of the whole plan, ms',
       }),
@@ -326,7 +270,8 @@ function remarkOn(points, shown, front) {
           timeShown() === 'ratio' ? 'their times are not ratios to HBAO+.' : 'no time is stated.'}`);
     if (timeShown() === 'ms' && points.some(isSubmitted))
       about.push('Times of submitted methods are as their authors state them, on devices of their own.');
-    if (!points.length && !levels.length) about.push('There is no truth for this scene, so no error to draw; its times are below.');
+    if (!points.length && !levels.length)
+      about.push('There is no truth for this scene, so no error to draw; its times are below.');
     if (!hasRatios() && state.time === 'ratio') about.push('HBAO+ medium was not measured here, so the axis is in ms.');
   }
   if (points.length && !shown.length) about.push('Nothing is left of the choice below.');

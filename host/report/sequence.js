@@ -4,8 +4,7 @@ const sequenceRows = data.sequence ? data.sequence.rows : [];
 /// Techniques of single frames first, so that each has one colour on the page.
 const techniquesWithSequence = unique([...techniques, ...sequenceRows.map((row) => row.technique)]);
 const sequenceTechniqueOf = (row) => techniquesWithSequence.indexOf(row.technique);
-const sequenceNameOf = (row) =>
-    [row.technique, row.preset, row.temporal && '(temporal)'].filter(Boolean).join(' ');
+const sequenceNameOf = (row) => [row.technique, row.preset, row.temporal && '(temporal)'].filter(Boolean).join(' ');
 const sequenceTimeOf = (row) => (sequenceRows.every((each) => is(each.ratio)) ? row.ratio : row.ms.median);
 
 /// Specification of a chart. `points`: {x, y, colour, shape, hollow, hover}; `pairs`: {x, y, x2, y2, colour}; `level`: of a dashed line,
@@ -40,20 +39,13 @@ function sequenceSpec({points, pairs, level, titles, width}) {
         }
       }] :
                       []),
-      {
-        type: 'rule',
-        from: {data: 'pairs'},
-        interactive: false,
-        encode: {
-          enter: {
-            ...at,
-            x2: {scale: 'x', field: 'x2'},
-            y2: {scale: 'y', field: 'y2'},
-            stroke: {field: 'colour'},
-            strokeOpacity: {value: 0.45}
-          }
-        }
-      },
+      mark('rule', 'pairs', {interactive: false}, {
+        ...at,
+        x2: {scale: 'x', field: 'x2'},
+        y2: {scale: 'y', field: 'y2'},
+        stroke: {field: 'colour'},
+        strokeOpacity: {value: 0.45}
+      }),
       {
         type: 'symbol',
         name: 'point_marks',
@@ -135,7 +127,9 @@ function renderSequence() {
         number('worst', (row) => row.worst_rmse, errorFigure, 'of the frame with the largest RMSE'),
         number('worst frame', (row) => row.worst_frame, (value) => (is(value) ? String(value) : '–')),
         number('SSIM', (row) => row.ssim, figure, 'mean over the frames'),
-        number('flicker', (row) => row.flicker, errorFigure, 'RMSE of the change from frame to frame, to that of the truth'),
+        number(
+            'flicker', (row) => row.flicker, errorFigure,
+            'RMSE of the change from frame to frame, to that of the truth'),
       ],
       sequenceRows);
 }
