@@ -41,14 +41,6 @@ Materials add_materials(Scene& scene) {
   return m;
 }
 
-/// Smooth noise in [0, 1].
-float noise(float x, float y, uint32_t seed) {
-  const float fx = std::floor(x), fy = std::floor(y);
-  const auto at = [&](int dx, int dy) { return hash01(uint32_t(int(fx) + dx), uint32_t(int(fy) + dy), seed); };
-  const float u = x - fx, v = y - fy, su = u * u * (3 - 2 * u), sv = v * v * (3 - 2 * v);
-  return glm::mix(glm::mix(at(0, 0), at(1, 0), su), glm::mix(at(0, 1), at(1, 1), su), sv);
-}
-
 /// Height of the ground: level about the temple, hills around.
 float ground_at(float x, float z) {
   const float dx = std::max(std::abs(x) - 9, 0.0f), dz = std::max(std::abs(z + 0.5f * length) - 13, 0.0f);
