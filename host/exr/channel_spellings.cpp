@@ -1,7 +1,12 @@
 #include "exr/channel_spellings.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
+
+#include "base/words.h"
+#include "exr/channel_text.h"
+#include "gloam/planes.h"
 
 namespace gloam::channel_names {
 namespace {
@@ -10,11 +15,11 @@ constexpr const char* xyz = "x,y,z|r,g,b";
 constexpr const char* rgb = "r,g,b|x,y,z";
 constexpr const char* one = "z|v|r|y|x|a|depth";
 
-}  // namespace
-
-const std::vector<Spelling>& spellings() {
+/// What others call the planes, and how gloam does where another way of writing its own name (planes.h) is taken for it too, or where
+/// that name alone, in any layer, is not enough.
+std::vector<Spelling> known_spellings() {
   using enum DeclaredConvention;
-  static const std::vector<Spelling> table = {
+  return {
       // Depth. gloam and OpenEXR: Z. Blender: Depth.Z, file output depth.V. RenderMan: z. Karma: Pz, hitPz, depth.
       // Mitsuba 2: the name that the user gave ("dd.y", "depth.Y"), Mitsuba 3: <name>.T, both ray distances.
       {"depth", "", "z", own},
@@ -42,7 +47,6 @@ const std::vector<Spelling>& spellings() {
       {"depth", "*", "distance", last_resort, ray_distance},
 
       // Normals. Blender: Normal. Arnold, Karma: N. RenderMan: Nn, __Nworld. Mitsuba: the user's name ("nn").
-      {"normal", "n", "x,y,z", own},
       {"normal", "n", "r,g,b", renderer},
       {"normal", "normal", xyz, renderer},
       {"normal", "normals", xyz, renderer},
@@ -103,11 +107,9 @@ const std::vector<Spelling>& spellings() {
       {"albedo", "denoisealbedo", rgb, last_resort},
       {"albedo", "denoisingalbedo", rgb, last_resort},
       {"ambient", "ambient", rgb, own},
-      {"metallic", "*", "metallic", own},
       {"metallic", "metallic", "x|r|v|y|z|a", renderer},
       {"metallic", "metalness", "x|r|v|y|z|a", renderer},
       {"metallic", "*", "metalness", renderer},
-      {"roughness", "*", "roughness", own},
       {"roughness", "roughness", "x|r|v|y|z|a", renderer},
       {"roughness", "specularroughness", "x|r|v|y|z|a", renderer},
       {"roughness", "*", "specularroughness", renderer},
@@ -117,7 +119,6 @@ const std::vector<Spelling>& spellings() {
       {"reflectance", "specularcolor", rgb, generic},
 
       // Geometry.
-      {"position", "p", "x,y,z", own},
       {"position", "p", "r,g,b", renderer},
       {"position", "position", xyz, renderer},
       {"position", "pworld", xyz, renderer},
@@ -126,20 +127,15 @@ const std::vector<Spelling>& spellings() {
       {"position", "hitp", xyz, renderer},
       {"position", "rayhitp", xyz, renderer},
       {"position", "pp", xyz, generic},
-      {"back_depth", "*", "backz", own},
       {"back_depth", "backz", "z|v|r|y|x", generic},
       {"back_depth", "backdepth", "z|v|r|y|x", generic},
-      {"instance", "*", "instance", own},
       {"instance", "instance", "x|r|v|y|z|id", generic},
       {"instance", "instanceid", "x|r|v|y|z|id", generic},
       {"instance", "shapeindex", "i|x|r|y", generic},
-      {"peel_count", "peel", "count", own},
-      {"outline_count", "outline", "count", own},
       {"seen_by_both", "", "both", own},
       {"mask", "", "mask", own},
       {"mask", "mask", "r|v|x|y|z|a|mask", generic},
       // Blender's Vector holds previous - current in x and y, y up.
-      {"motion", "motion", "x,y", own},
       {"motion", "vector", "x,y", renderer, nothing, -1},
       {"motion", "motion", "r,g", renderer, unsure_motion},
       {"motion", "motionvector", "x,y|r,g|u,v", renderer, unsure_motion},
@@ -147,44 +143,38 @@ const std::vector<Spelling>& spellings() {
       {"motion", "velocity", "x,y|r,g|u,v", generic, unsure_motion},
 
       // Results.
-      {"ao", "*", "ao", own},
       {"ao", "ao", "r|v|x|y|z", renderer},
       {"ao", "occlusion", "r|v|x|y|z", generic},
       {"ao", "ambientocclusion", "r|v|x|y|z", generic},
       {"ao", "*", "occlusion|ambientocclusion|ambient_occlusion", generic},
-      {"ao_raw", "*", "ao_raw", own},
-      {"ao_error", "*", "ao_error", own},
-      {"ao_noise", "*", "ao_noise", own},
-      {"bent_normal", "bent", "x,y,z", own},
       {"bent_normal", "bentnormal", xyz, generic},
-      {"cone", "*", "cone", own},
-      {"reflection", "reflection", "r,g,b,a", own},
-      {"reflection_raw", "reflectionraw", "r,g,b,a", own},
       {"frames", "", "frames", own},
-      {"history", "history", "r,g,b,a", own},
-      {"history_ao", "history", "visibility", own},
-      {"history_indirect", "historyindirect", "r,g,b", own},
-      {"history_depth", "history", "z", own},
-      {"history_frames", "history", "frames", own},
-      {"reflection_noise", "*", "reflection_noise", own},
-      {"indirect", "indirect", "r,g,b", own},
-      {"indirect_raw", "indirectraw", "r,g,b", own},
-      {"indirect_noise", "*", "indirect_noise", own},
-      {"bounces", "bounces", "r,g,b", own},
-      {"bounces_noise", "*", "bounces_noise", own},
-      {"specular_occlusion", "*", "specular_occlusion", own},
-      {"specular_occlusion_raw", "*", "specular_occlusion_raw", own},
-      {"lobe_weight", "*", "lobe_weight", own},
-      {"specular_occlusion_noise", "*", "specular_occlusion_noise", own},
-      {"contact", "*", "contact", own},
-      {"contact_noise", "*", "contact_noise", own},
-      {"environment", "environment", "r,g,b", own},
-      {"environment_raw", "environmentraw", "r,g,b", own},
-      {"color_noise", "*", "color_noise", own},
-      {"environment_noise", "*", "environment_noise", own},
-      {"hit", "hit", "z", own},
   };
-  return table;
+}
+
+/// The channels that gloam writes for a plane.
+Spelling own_spelling(const PlaneKind& kind) {
+  const size_t dot = kind.channels.front().rfind('.');
+  const std::string layer = dot == std::string::npos ? "*" : canonical(kind.channels.front().substr(0, dot));
+  std::string components;
+  for (const std::string& channel : kind.channels)
+    components += (components.empty() ? "" : ",") + lower(channel.substr(channel.rfind('.') + 1));
+  return {kind.name, layer, components, own};
+}
+
+}  // namespace
+
+const std::vector<Spelling>& spellings() {
+  static const std::vector<Spelling> all = [] {
+    std::vector<Spelling> known = known_spellings();
+    for (const PlaneKind& kind : plane_kinds()) {
+      if (std::none_of(known.begin(), known.end(),
+                       [&](const Spelling& s) { return s.plane == kind.name && s.rank == own; }))
+        known.push_back(own_spelling(kind));
+    }
+    return known;
+  }();
+  return all;
 }
 
 const std::vector<Spelling>& spellings_of(const std::string& plane) {

@@ -13,9 +13,9 @@ enum Rank { own, renderer, generic, last_resort, only_rgba = 50 };
 
 /// A layer, and its channels that make up a plane.
 struct Spelling {
-  const char* plane;
-  const char* layer;       ///< canonical; "": no layer; "*": any layer, for channels whose own name is enough
-  const char* components;  ///< alternatives separated by '|', best first; the components of each separated by ','
+  std::string plane;
+  std::string layer;       ///< canonical; "": no layer; "*": any layer, for channels whose own name is enough
+  std::string components;  ///< alternatives separated by '|', best first; the components of each separated by ','
   Rank rank;
   DeclaredConvention said = DeclaredConvention::nothing;
   float y_scale = 1;  ///< for the second component: -1 turns y up into y down

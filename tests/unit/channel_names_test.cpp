@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "gloam/error.h"
+#include "gloam/planes.h"
 
 namespace gloam::channel_names_test {
 namespace {
@@ -119,6 +120,10 @@ INSTANTIATE_TEST_SUITE_P(
         Spelled{"bounces", {"bounces.R", "bounces.G", "bounces.B"}},
         Spelled{"specular_occlusion", {"specular_occlusion"}}, Spelled{"contact", {"contact"}},
         Spelled{"environment", {"environment.R", "environment.G", "environment.B"}}, Spelled{"hit", {"hit.Z"}}));
+
+TEST(ChannelNames, EachPlaneIsFoundInTheChannelsThatAreWrittenForIt) {
+  for (const PlaneKind& kind : plane_kinds()) EXPECT_EQ(found(kind.channels, kind.name), kind.channels) << kind.name;
+}
 
 TEST(ChannelNames, OwnNamesComeFirst) {
   EXPECT_EQ(found({"A.Depth.Z", "Z"}, "depth"), Names{"Z"});
