@@ -536,7 +536,7 @@ void add_table(Scene& scene, const Materials& m, const mat4& at, float width, fl
   place(scene, "table", m.oak, wood, at);
 }
 
-void add_small_things(Scene& scene, const Materials& m) {
+void add_things_on_walls(Scene& scene, const Materials& m) {
   // Fire extinguisher on the wall, a clock, a notice board with papers, coat hooks.
   const mat4 east = against({1.6f, 2.2f}, {-1, 0});
   Mesh bottle, hose, bracket;
@@ -576,7 +576,9 @@ void add_small_things(Scene& scene, const Materials& m) {
   add_box(clock, {-0.02f, 0.052f, -0.006f}, {0.1f, 0.058f, 0.006f});
   place(scene, "clock", m.brass, clock, clock_at);
   place(scene, "clock face", m.paper, face, clock_at);
+}
 
+void add_vases_and_umbrellas(Scene& scene, const Materials& m) {
   for (const Opening& niche : niches) {  // a vase in each niche
     const vec3 at(niche.middle.x + 0.18f, niche.bottom, -niche.middle.y);
     add_lathe(add_mesh(scene, "vase", m.clay), at,
@@ -747,7 +749,8 @@ Scene make(const ParameterValues&) {
   add_ceiling(scene, m);
   add_pipes(scene, m);
   add_furniture(scene, m);
-  add_small_things(scene, m);
+  add_things_on_walls(scene, m);
+  add_vases_and_umbrellas(scene, m);
   add_outside(scene, m);
   scene.cameras = {looking_at("main", {0.35f, 1.65f, 2.3f}, {-0.15f, 1.35f, -8.0f}, 74),
                    looking_at("radiator", {-0.3f, 1.15f, 0.2f}, {-1.6f, 0.75f, -1.4f}, 66),
