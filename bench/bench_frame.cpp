@@ -125,19 +125,6 @@ float radius_reaching(const Frame& frame, double pixels) { return float(pixels /
 
 std::string size_name(const Frame& frame) { return fmt::format("{}x{}", frame.width(), frame.height()); }
 
-void add_sizes(CLI::App& flags, std::vector<std::pair<int, int>>& sizes) {
-  const CLI::callback_t take = [&sizes](const CLI::results_t& texts) {
-    sizes.clear();
-    for (const std::string& text : texts) sizes.push_back(cli::parse_size(text, "--size"));
-    return true;
-  };
-  flags.add_option("--size", take)
-      ->expected(1)
-      ->take_all()
-      ->check(cli::accepted_by(cli::parse_size, "--size"))
-      ->type_name("WIDTHxHEIGHT");
-}
-
 void take_flags(CLI::App& flags, int& argc, char** argv) {
   flags.set_help_flag();  // Google Benchmark has one
   flags.allow_extras();
@@ -148,6 +135,19 @@ void take_flags(CLI::App& flags, int& argc, char** argv) {
   }
   const std::vector<std::string> others = flags.remaining();
   argc = int(std::remove_if(argv + 1, argv + argc, [&](const char* text) { return !contains(others, text); }) - argv);
+}
+
+void take_flags(int& argc, char** argv, std::vector<std::pair<int, int>>& sizes,
+                const std::map<std::string, bool*>& switches) {
+  CLI::App flags;
+  for (const auto& [name, given] : switches) flags.add_flag(name, *given);
+  const CLI::callback_t take = [&sizes](const CLI::results_t& texts) {
+    sizes.clear();
+    for (const std::string& text : texts) sizes.push_back(cli::parse_size(text, "--size"));
+    return true;
+  };
+  flags.add_option("--size", take)->expected(1)->take_all()->check(cli::accepted_by(cli::parse_size, "--size"));
+  take_flags(flags, argc, argv);
 }
 
 int run_program(const char* name, int argc, char** argv, int (*main)(int, char**)) {

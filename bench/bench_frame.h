@@ -1,12 +1,16 @@
 // The frame of the benchmarks, and the start of every benchmark program.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "gloam/frame.h"
+
+namespace CLI {
+class App;
+}
 
 namespace gloam::bench {
 
@@ -32,11 +36,12 @@ float radius_reaching(const Frame& frame, double pixels);
 /// "1920x1080"
 std::string size_name(const Frame& frame);
 
-/// Adds --size=WIDTHxHEIGHT, repeatable. `sizes` holds the sizes that are measured without the flag.
-void add_sizes(CLI::App& flags, std::vector<std::pair<int, int>>& sizes);
-
 /// Removes `flags` from the command line; names and Google Benchmark's flags stay. Throws UsageError.
 void take_flags(CLI::App& flags, int& argc, char** argv);
+
+/// The same for flags that are given or not, and for --size=WIDTHxHEIGHT, repeatable: `sizes` holds those measured without it.
+void take_flags(int& argc, char** argv, std::vector<std::pair<int, int>>& sizes,
+                const std::map<std::string, bool*>& switches = {});
 
 /// Runs a program's main function. An error becomes one line that begins with the program's name. Returns the exit status.
 int run_program(const char* name, int argc, char** argv, int (*main)(int argc, char** argv));

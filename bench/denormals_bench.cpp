@@ -68,9 +68,7 @@ std::vector<const Technique*> chosen(int argc, char** argv) {
 
 int bench_main(int argc, char** argv) {
   std::vector<std::pair<int, int>> sizes = {{960, 540}};
-  CLI::App flags;
-  add_sizes(flags, sizes);
-  take_flags(flags, argc, argv);
+  take_flags(argc, argv, sizes);
   const std::vector<const Technique*> techniques = chosen(argc, argv);
   Device device;
   for (const auto& [width, height] : sizes) {

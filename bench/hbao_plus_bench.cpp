@@ -142,11 +142,7 @@ bool writes_data_to_stdout(int argc, char** argv) {
 int bench_main(int argc, char** argv) {
   bool no_table = false, no_naive = false;
   std::vector<std::pair<int, int>> sizes = {{1920, 1080}};
-  CLI::App flags;
-  flags.add_flag("--no_table", no_table);
-  flags.add_flag("--no_naive", no_naive);
-  add_sizes(flags, sizes);
-  take_flags(flags, argc, argv);
+  take_flags(argc, argv, sizes, {{"--no_table", &no_table}, {"--no_naive", &no_naive}});
   std::FILE* const table_out = writes_data_to_stdout(argc, argv) ? stderr : stdout;
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;

@@ -4,6 +4,7 @@
 // bench_fit --folder DIR [-o coefficients.json] [--scenes A,B,scene.glb] [--occluders depth,peel] [--presets medium] [--frames N]
 //           [--rays N] [--seed N] [--keep coefficients.json]
 // --keep: the coefficients of AO are those of that file; only its expected error is fitted.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

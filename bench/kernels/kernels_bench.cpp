@@ -114,9 +114,7 @@ void add_benchmarks(const Technique& technique, Frame& frame, Device& device, fl
 
 int bench_main(int argc, char** argv) {
   std::vector<std::pair<int, int>> sizes = {{1920, 1080}};
-  CLI::App flags;
-  add_sizes(flags, sizes);
-  take_flags(flags, argc, argv);
+  take_flags(argc, argv, sizes);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   Device device;

@@ -29,8 +29,6 @@ const Channel& first_channel(const Frame& frame, const std::string& plane) {
 }
 
 int bench_main(int argc, char** argv) {
-  CLI::App flags;
-  take_flags(flags, argc, argv);
   if (argc < 3) throw UsageError("give the truth and at least one image: bench_spectrum TRUTH.exr AO.exr");
   const Frame truth = read_as_stored(argv[1], {"ao"});
   std::string rows;
