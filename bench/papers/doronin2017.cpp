@@ -187,14 +187,14 @@ void section_6_errors(Study& study, const Stage& s, const Image& truth) {
   }
 }
 
-struct Named {
+struct NamedSet {
   std::string name;
   Asked asked;
 };
 
-std::vector<Panel> panels_of(const Study& study, const Stage& s, const std::vector<Named>& all) {
+std::vector<Panel> panels_of(const Study& study, const Stage& s, const std::vector<NamedSet>& all) {
   std::vector<Panel> panels;
-  for (const Named& named : all) panels.push_back({named.name, study.image(s, named.asked)});
+  for (const NamedSet& named : all) panels.push_back({named.name, study.image(s, named.asked)});
   return panels;
 }
 
@@ -219,7 +219,7 @@ void draw(Study& study, const Stage& s, const Image& truth) {
       "Figure 13: one radius and five", module, "figure_13.png",
       panels_of(study, s, {{"1 radius", filtered(asked_of(one_radius, "spiral"))}, {"5 radii", filtered(as_usual)}}),
       2);
-  std::vector<Named> sets;
+  std::vector<NamedSet> sets;
   for (const char* points : point_sets) sets.push_back({points, asked_of(usual, points)});
   study.picture("Section 6: how points are spread", module + " Before the Gaussian.", "section_6_points.png",
                 panels_of(study, s, sets), 2);
@@ -246,7 +246,7 @@ std::vector<std::string> notes_of(const PaperOptions& options) {
       "in full; the others take over what these show."};
 }
 
-PaperResult reproduce(Device& device, const PaperOptions& options) {
+PaperResult remake_doronin(Device& device, const PaperOptions& options) {
   Study study(device, options);
   study.result.notes = notes_of(options);
   const Settings of_the_first = {{"faces", models.front().faces}}, of_the_last = {{"faces", models.back().faces}};
@@ -272,7 +272,7 @@ Paper doronin2017() {
   return {.name = "doronin2017",
           .title = "Screen-space ambient occlusion for light field displays (Doronin, Kara, Barsi, Martini 2017)",
           .rays = 1024,
-          .reproduce = reproduce,
+          .reproduce = remake_doronin,
           .width = 1024,
           .height = 768};
 }

@@ -235,7 +235,7 @@ void many_cameras(Study& study) {
   }
 }
 
-PaperResult reproduce(Device& device, const PaperOptions& options) {
+PaperResult remake_odssao(Device& device, const PaperOptions& options) {
   Study study(device, options);
   study.result.notes = {
       "Built-in scenes stand for the paper's, which cannot be had. They hold far more small objects than its flat "
@@ -260,7 +260,7 @@ Paper odssao2020() {
   return {.name = "odssao2020",
           .title = "Outline-dependent screen-space ambient occlusion (2020)",
           .rays = 256,
-          .reproduce = reproduce,
+          .reproduce = remake_odssao,
           .width = 1080,
           .height = 720};
 }

@@ -14,17 +14,17 @@
 namespace gloam::bench {
 namespace {
 
-constexpr double eyes_apart = 0.065;
+constexpr double metres_apart = 0.065;
 /// Unlike the other scenes it shows a surface at nearly every pixel, as the paper's timed frames do.
-constexpr StandIn sponza{"gallery", "Sponza"};
+constexpr StandIn gallery{"gallery", "Sponza"};
 constexpr std::array<const char*, 3> scenes = {"courtyard", "colonnade", "gallery"};
 constexpr const char* long_walls = "corridor";  ///< seen at flat angles, as figure 5 needs
-constexpr int divisor = 4;                      ///< of the size of images that rays are traced for
+constexpr int quarter = 4;                      ///< of the size of images that rays are traced for
 
 /// Section 4.3: 10 directions of 4 samples. Its filter has 13 taps.
-const Settings samples_of_the_paper = {{"directions", "10"}, {"steps", "4"}};
+const Settings ten_by_four = {{"directions", "10"}, {"steps", "4"}};
 
-Asked raw(const std::string& technique) { return {technique, samples_of_the_paper}; }
+Asked raw(const std::string& technique) { return {technique, ten_by_four}; }
 
 Asked filtered_by_13_taps(const std::string& technique) { return with(filtered(raw(technique)), "half_width", "6"); }
 
@@ -34,7 +34,7 @@ Asked filtered_by_13_taps(const std::string& technique) { return with(filtered(r
 using TimedStages = std::array<Stage, 2>;
 
 TimedStages timed_stages(Study& study) {
-  const Shot shot{.scene = sponza.scene, .eyes_apart = eyes_apart};
+  const Shot shot{.scene = gallery.scene, .eyes_apart = metres_apart};
   const int width = study.options().width, height = study.options().height;
   study.tell("capturing what is timed");
   return {study.stage(shot, width, height), study.stage(shot, width * 2468 / 1920, height * 2740 / 1080)};
@@ -77,7 +77,7 @@ void table_1(Study& study, const TimedStages& stages) {
   const Asked mono_ao = raw("hbao+"), stereo_ao = raw("stereo-ao"),
               as_the_paper = with(stereo_ao, "other_eye", "everywhere");
   measure_both_sizes(
-      study, stages, fmt::format("Table 1: raw estimation, {} for {}", sponza.scene, sponza.of),
+      study, stages, fmt::format("Table 1: raw estimation, {} for {}", gallery.scene, gallery.of),
       {{"mono: O left", mono_ao, {"estimate"}, "left", mono},
        {"mono: O right", mono_ao, {"estimate"}, "right", mono},
        {"mono: total", mono_ao, {"estimate"}, "", {1.96, 0.48, 6.66, 1.50}, true},
@@ -109,7 +109,7 @@ void table_2(Study& study, const TimedStages& stages) {
     rows.push_back({fmt::format("stereo: {}, blend", eye), stereo_ao, {"blend"}, eye, {}});
   }
   rows.push_back({"stereo: total", stereo_ao, passes, "", full(1.28, 4.46)});
-  measure_both_sizes(study, stages, fmt::format("Table 2: filter of 13 taps, {} for {}", sponza.scene, sponza.of),
+  measure_both_sizes(study, stages, fmt::format("Table 2: filter of 13 taps, {} for {}", gallery.scene, gallery.of),
                      rows);
 }
 
@@ -303,13 +303,13 @@ void figure_9(Study& study, const Stage& s, const std::string& scene, const Trac
                 fmt::format("figure_9_{}.png", scene), panels, 2);
 }
 
-PaperResult reproduce(Device& device, const PaperOptions& options) {
+PaperResult remake_shi(Device& device, const PaperOptions& options) {
   Study study(device, options);
   study.result.notes = {
       fmt::format(
           "Built-in scenes stand for the paper's: {} for {} where times are measured, since it shows a surface at "
           "nearly every pixel as the paper's frames do; {} for the others. Eyes {:g} apart.",
-          sponza.scene, sponza.of, fmt::join(scenes, ", "), eyes_apart),
+          gallery.scene, gallery.of, fmt::join(scenes, ", "), metres_apart),
       "HBAO+ with 10 x 4 samples, a filter of 13 x 13 taps. Times at half resolution are without the passes that bring "
       "images there and back.",
       "`everywhere` looks at the other eye for every pixel, as the paper does, and so does B; the others only where "
@@ -332,7 +332,7 @@ PaperResult reproduce(Device& device, const PaperOptions& options) {
   }
   for (const char* scene : scenes) {
     study.tell(fmt::format("figures 9 and 10: {}", scene));
-    const Stage s = study.small_stage({.scene = scene, .eyes_apart = eyes_apart}, divisor);
+    const Stage s = study.small_stage({.scene = scene, .eyes_apart = metres_apart}, quarter);
     const Traced t = traced_halves(study, s, scene);
     figure_10(study, s, scene, t);
     state_noise(study, s, scene, t);
@@ -340,7 +340,7 @@ PaperResult reproduce(Device& device, const PaperOptions& options) {
   }
   for (const char* scene : {scenes[0], scenes[1], scenes[2], long_walls}) {
     study.tell(fmt::format("figures 5 and 10 in full: {}", scene));
-    const Stage s = study.timed_stage({.scene = scene, .eyes_apart = eyes_apart});
+    const Stage s = study.timed_stage({.scene = scene, .eyes_apart = metres_apart});
     figure_10_in_full(study, s, scene);
     figure_5(study, s, scene, raw("stereo-ao"), asked_of(d_of_the_paper));
   }
@@ -351,7 +351,7 @@ PaperResult reproduce(Device& device, const PaperOptions& options) {
 
 Paper shi2022() {
   return {"shi2022", "Stereo-consistent screen-space ambient occlusion (Shi, Billeter, Eisemann 2022)", 4096,
-          reproduce};
+          remake_shi};
 }
 
 }  // namespace gloam::bench

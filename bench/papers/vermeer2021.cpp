@@ -112,7 +112,7 @@ void table_2(Study& study) {
   }
 }
 
-void table_3(Study& study) {
+void table_3_of_vermeer(Study& study) {
   const Stage one = study.timed_stage({sibenik.scene, layers_in_times}),
               two = study.timed_stage({.scene = sibenik.scene, .layers = layers_in_times, .second_view = 30});
   // Milliseconds with the map: one camera; two, at full and at half resolution, and with the second alone at half.
@@ -312,7 +312,7 @@ void histogram(Study& study) {
   }
 }
 
-PaperResult reproduce(Device& device, const PaperOptions& options) {
+PaperResult remake_vermeer(Device& device, const PaperOptions& options) {
   Study study(device, options);
   study.result.notes = {
       fmt::format("Built-in scenes stand for the paper's: {} for {}, {} for {}, {} for {}, {} for {}.", sponza.scene,
@@ -323,7 +323,7 @@ PaperResult reproduce(Device& device, const PaperOptions& options) {
       "The pass `sort` brings the samples of the map into the order in which they are read; it is in the totals."};
   table_1(study);
   table_2(study);
-  table_3(study);
+  table_3_of_vermeer(study);
   figure_3(study);
   figures_4_and_5(study);
   figure_6(study);
@@ -342,7 +342,7 @@ PaperResult reproduce(Device& device, const PaperOptions& options) {
 }  // namespace
 
 Paper vermeer2021() {
-  return {"vermeer2021", "Stochastic-Depth Ambient Occlusion (Vermeer, Scandolo, Eisemann 2021)", 256, reproduce};
+  return {"vermeer2021", "Stochastic-Depth Ambient Occlusion (Vermeer, Scandolo, Eisemann 2021)", 256, remake_vermeer};
 }
 
 }  // namespace gloam::bench

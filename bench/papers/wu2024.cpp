@@ -252,7 +252,7 @@ void table_3(Study& study) {
   }
 }
 
-PaperResult reproduce(Device& device, const PaperOptions& options) {
+PaperResult remake_wu(Device& device, const PaperOptions& options) {
   Study study(device, options);
   study.result.notes = {
       "Built-in scenes stand for the paper's. Two eyes 0.065 apart, one ray per pixel, 21 pixels share rays (radius 2 "
@@ -284,6 +284,6 @@ PaperResult reproduce(Device& device, const PaperOptions& options) {
 
 }  // namespace
 
-Paper wu2024() { return {"wu2024", "Stereo-consistent Screen Space Reflection (Wu, Xu, Wang 2024)", 1024, reproduce}; }
+Paper wu2024() { return {"wu2024", "Stereo-consistent Screen Space Reflection (Wu, Xu, Wang 2024)", 1024, remake_wu}; }
 
 }  // namespace gloam::bench

@@ -26,7 +26,7 @@ constexpr size_t random_letters = 6;
 // --- At a signal: system calls alone, since nothing else is safe in a handler
 
 /// An entry of a folder as the kernel gives it.
-struct Entry {
+struct Recorded {
   uint64_t inode;
   int64_t offset;
   unsigned short length;
@@ -38,11 +38,11 @@ void remove_tree(int above, const char* name, int levels) {
   if (::unlinkat(above, name, 0) == 0 || levels == 0) return;
   const int folder = ::openat(above, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (folder < 0) return;
-  alignas(Entry) char bytes[2048];
+  alignas(Recorded) char bytes[2048];
   long got = 0;
   while ((got = ::syscall(SYS_getdents64, folder, bytes, sizeof bytes)) > 0) {
     for (long at = 0; at < got;) {
-      const Entry* entry = reinterpret_cast<const Entry*>(bytes + at);
+      const Recorded* entry = reinterpret_cast<const Recorded*>(bytes + at);
       const bool is_itself = std::strcmp(entry->name, ".") == 0 || std::strcmp(entry->name, "..") == 0;
       if (!is_itself) remove_tree(folder, entry->name, levels - 1);
       at += entry->length;

@@ -19,7 +19,7 @@ namespace {
 using Pixels = std::vector<PositionedPixel>;
 
 constexpr size_t fewest_pixels = 40, most_refined = 1200;
-constexpr double most_wild = 0.35;  ///< share of positions that a camera need not explain
+constexpr double most_wild = 0.35;                     ///< share of positions that a camera need not explain
 constexpr double half_pixel = 0.5, most_rounding = 3;  ///< pixels
 /// What has to be told for a camera: the aspect to 0.3 %, the principal point to 3 pixels, the focal length to 2 %.
 constexpr double largest_aspect_error = 0.003, largest_centre_error = 3, largest_focal_error = 0.02;
@@ -30,10 +30,6 @@ Pixels thinned(const Pixels& pixels, size_t count) {
   Pixels some;
   for (size_t i = 0; i < count; ++i) some.push_back(pixels[i * pixels.size() / count]);
   return some;
-}
-
-double median_error(const Camera& camera, const Pixels& pixels) {
-  return share_below(position_errors(camera, pixels), 0.5);
 }
 
 /// The best of the refinements from each start of a kind.

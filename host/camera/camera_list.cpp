@@ -15,12 +15,12 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr std::uintmax_t largest_file = 256 << 20;
+constexpr std::uintmax_t largest_list = 256 << 20;
 
 json read_list(const fs::path& file) {
   std::error_code failed;
   const std::uintmax_t size = fs::file_size(file, failed);
-  if (!failed && size > largest_file) throw Error("{}: {} bytes, too large for a list of cameras", file.string(), size);
+  if (!failed && size > largest_list) throw Error("{}: {} bytes, too large for a list of cameras", file.string(), size);
   return json_of_text(read_text(file), file.string());
 }
 

@@ -188,7 +188,7 @@ using glm::dvec3;
 using nlohmann::json;
 
 /// A display takes a few kilobytes; a larger JSON is no display.
-constexpr std::uintmax_t largest_file = 16 << 20;
+constexpr std::uintmax_t largest_display = 16 << 20;
 
 bool is_within_range(const dvec3& v) {
   return std::abs(v.x) <= largest_in_display && std::abs(v.y) <= largest_in_display &&
@@ -267,7 +267,7 @@ LightFieldDisplay display_from_text(const std::string& text, const std::string& 
 LightFieldDisplay read_display(const std::filesystem::path& file) {
   std::error_code failed;
   const std::uintmax_t size = std::filesystem::file_size(file, failed);
-  if (!failed && size > largest_file) throw Error("{}: {} bytes, too large for a display", file.string(), size);
+  if (!failed && size > largest_display) throw Error("{}: {} bytes, too large for a display", file.string(), size);
   LightFieldDisplay display = display_from_text(read_text(file), file.string());
   if (display.name == "unnamed") display.name = file.stem().string();
   return display;

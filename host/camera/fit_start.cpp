@@ -180,12 +180,8 @@ std::optional<Camera> orthographic(const Pixels& pixels) {
   return camera;
 }
 
-double median_error(const Camera& camera, const Pixels& pixels) {
-  return share_below(position_errors(camera, pixels), 0.5);
-}
-
 /// About `count` of them, evenly spread.
-Pixels thinned(const Pixels& pixels, size_t count) {
+Pixels some_of(const Pixels& pixels, size_t count) {
   const size_t step = std::max<size_t>(1, pixels.size() / count);
   Pixels some;
   for (size_t i = 0; i < pixels.size(); i += step) some.push_back(pixels[i]);
@@ -199,7 +195,7 @@ constexpr double good_enough = 0.05;  ///< pixels: no wild position spoils it
 std::optional<Camera> best_camera(const Pixels& pixels, size_t sample_size, const Maker& make) {
   constexpr int samples = 200;
   std::optional<Camera> best = make(pixels);
-  const Pixels judges = thinned(pixels, 300);
+  const Pixels judges = some_of(pixels, 300);
   double least = best ? median_error(*best, judges) : INFINITY;
   Random random(1);
   for (int i = 0; i < samples && least > good_enough; ++i) {
@@ -224,6 +220,10 @@ std::optional<Camera> best_camera(const Pixels& pixels, size_t sample_size, cons
 }
 
 }  // namespace
+
+double median_error(const Camera& camera, const std::vector<PositionedPixel>& pixels) {
+  return share_below(position_errors(camera, pixels), 0.5);
+}
 
 Spread spread_of(const Pixels& pixels) {
   Spread spread;

@@ -14,6 +14,9 @@ struct Spread {
   glm::dvec3 deviations{0.0};
 };
 
+/// Of the errors of the pixels' positions.
+double median_error(const Camera& camera, const std::vector<PositionedPixel>& pixels);
+
 Spread spread_of(const std::vector<PositionedPixel>& pixels);
 
 /// Cameras that may explain the positions: perspective from all of space (direct linear transform), perspective from a plane if

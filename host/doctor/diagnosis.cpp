@@ -91,7 +91,7 @@ void take(const std::string& text, Diagnosis& diagnosis) {
 }
 
 /// The tests' failures, and how the child ended if it did not end by itself.
-void judge(const ChildEnd& end, size_t tests, Diagnosis& diagnosis) {
+void judge_end(const ChildEnd& end, size_t tests, Diagnosis& diagnosis) {
   DeviceRecord& record = diagnosis.record;
   for (const TestResult& test : diagnosis.tests) {
     if (!test.held) record.failures.push_back(fmt::format("{} ({}): {}", test.kind, test.technique, test.why));
@@ -155,7 +155,7 @@ Diagnosis diagnose(const DeviceInfo& info, bool again, const std::function<void(
     take(line, diagnosis);
     goes_on();
   });
-  judge(end, tests, diagnosis);
+  judge_end(end, tests, diagnosis);
   if (measures && record.held) measure_starts(diagnosis, goes_on);
   return diagnosis;
 }

@@ -40,7 +40,7 @@ struct Candidate {
 };
 
 /// The channels of one view in decoded rows.
-struct Rows {
+struct RowRange {
   const Plane* position;
   const Channel* depth = nullptr;
   const Channel* alpha = nullptr;

@@ -9,7 +9,7 @@ namespace gloam::bench {
 namespace {
 
 /// Laid out like `Settings` in naive.cl.
-struct Settings {
+struct NaiveSettings {
   float radius, max_pixels;
   float bias, strength;
   float distance, one_minus_cosine;
@@ -25,7 +25,7 @@ int define_of(const Pass& pass, const std::string& name) {
   return 0;
 }
 
-Settings settings_of(const PlannedPass& planned, int width) {
+NaiveSettings settings_of(const PlannedPass& planned, int width) {
   const auto number = [&](const char* name) { return number_of(planned.values, name); };
   return {.radius = float(number("radius")),
           .max_pixels = float(number("max_reach") * width),
@@ -39,7 +39,7 @@ Settings settings_of(const PlannedPass& planned, int width) {
           .rows = define_of(planned.pass, "ROWS")};
 }
 
-std::string options(const Settings& settings, Counts counts) {
+std::string options(const NaiveSettings& settings, Counts counts) {
   std::string text = "-cl-std=CL1.2 -cl-mad-enable -cl-no-signed-zeros";
   if (counts == Counts::unrolled)
     text += fmt::format(" -D UNROLLED -D DIRECTIONS={} -D STEPS={} -D COLUMNS={} -D ROWS={}", settings.directions,
@@ -71,7 +71,7 @@ const std::vector<NaiveKernel>& naive_kernels() {
 
 std::vector<KernelText> naive_texts() {
   std::vector<KernelText> texts;
-  const Settings any{.directions = 4, .steps = 4, .columns = 4, .rows = 4};
+  const NaiveSettings any{.directions = 4, .steps = 4, .columns = 4, .rows = 4};
   for (const NaiveKernel& naive : naive_kernels()) {
     for (const Counts counts : {Counts::at_run_time, Counts::unrolled})
       texts.push_back({std::string(naive_cl) + naive.text, options(any, counts), naive.kernel});
@@ -103,7 +103,7 @@ Naive::Naive(const Plan& plan, const Frame& frame, DevicePlanes& planes, Device&
   global_ = cl::NDRange(size_t(camera.width), size_t(camera.height));
   for (size_t i = 0; i < plan.passes.size(); ++i) {
     const NaiveKernel& naive = *naive_kernel_for(plan.passes[i]);
-    const Settings settings = settings_of(plan.passes[i], camera.width);
+    const NaiveSettings settings = settings_of(plan.passes[i], camera.width);
     cl::Kernel kernel = build(device, std::string(naive_cl) + naive.text, options(settings, counts), naive.kernel);
     kernel.setArg(0, camera);
     kernel.setArg(1, settings);

@@ -24,7 +24,7 @@ std::array<cv::Mat, 2> pair_of(const std::filesystem::path& path, const Plane& l
 
 // --- The legend
 
-constexpr int margin = 8, row_height = 20, swatch_width = 60, swatch_height = 12;
+constexpr int key_margin = 8, row_height = 20, swatch_width = 60, swatch_height = 12;
 const TextStyle words{8, ink};
 
 /// An entry of the legend: a field of colours and its meaning.
@@ -51,9 +51,9 @@ int width_of(const Key& key) { return key.swatch.cols + 6 + cvCeil(text_width(ke
 /// Positions of the entries: from left to right, in as many rows as needed.
 std::vector<cv::Point> places_of(const std::vector<Key>& keys, int width) {
   std::vector<cv::Point> places;
-  cv::Point at(margin, margin);
+  cv::Point at(key_margin, key_margin);
   for (const Key& key : keys) {
-    if (at.x > margin && at.x + width_of(key) + margin > width) at = {margin, at.y + row_height};
+    if (at.x > key_margin && at.x + width_of(key) + key_margin > width) at = {key_margin, at.y + row_height};
     places.push_back(at);
     at.x += width_of(key) + 18;
   }
@@ -63,7 +63,7 @@ std::vector<cv::Point> places_of(const std::vector<Key>& keys, int width) {
 cv::Mat with_legend(const cv::Mat& image, double magnify) {
   const std::vector<Key> keys = keys_of(magnify);
   int width = image.cols;
-  for (const Key& key : keys) width = std::max(width, width_of(key) + 2 * margin);
+  for (const Key& key : keys) width = std::max(width, width_of(key) + 2 * key_margin);
   const std::vector<cv::Point> places = places_of(keys, width);
   cv::Mat sheet(image.rows + places.back().y + row_height, width, CV_8UC3, paper);
   image.copyTo(sheet(cv::Rect({}, image.size())));

@@ -64,8 +64,8 @@ Defines components_of(const Accumulated& plane) {
   return {{"COMPONENTS", int(plane_kind(plane.raw).components.size())}};
 }
 
-constexpr int tile = 16;
-static_assert(tile % 16 == 0, "each row of lanes lies in one tile");
+constexpr int moved_tile = 16;
+static_assert(moved_tile % 16 == 0, "each row of lanes lies in one tile");
 // Of what moves, in tiles: the radius of AO on the screen is rarely longer.
 constexpr int reach = 16;
 
@@ -94,7 +94,7 @@ Pass reproject_pass(const Plan& plan, const Accumulated& plane) {
 
 /// The last one writes the distance of each tile from what moves.
 std::vector<Pass> tile_passes() {
-  const Defines defines = {{"TILE", tile}, {"REACH", reach}};
+  const Defines defines = {{"TILE", moved_tile}, {"REACH", reach}};
   const auto pass = [&](const char* name, const char* kernel, Binding from, Binding to) {
     return Pass{.name = name,
                 .kernel = kernel,
@@ -102,7 +102,7 @@ std::vector<Pass> tile_passes() {
                 .reads = {std::move(from)},
                 .writes = {std::move(to)},
                 .defines = defines,
-                .scale = tile};
+                .scale = moved_tile};
   };
   return {pass("moving", "moving_tiles", own("moved"), own("moving")),
           pass("across", "distance_across", own("moving"), {"tiles_away", "temporal_across"}),
@@ -121,7 +121,7 @@ Pass accumulate_pass(const Accumulated& plane) {
             .writes = {{"result", plane.raw}, "frames"},
             .defines = components_of(plane),
             .footprint = {.columns = 2, .rows = 2}};
-  pass.defines.insert(pass.defines.end(), {{"TILE", tile}, {"REACH", reach}});
+  pass.defines.insert(pass.defines.end(), {{"TILE", moved_tile}, {"REACH", reach}});
   return pass;
 }
 

@@ -110,7 +110,7 @@ py::object camera_to_world(const Camera& camera) {
   return matrix;
 }
 
-std::string in_words(const Camera& camera) {
+std::string camera_in_words(const Camera& camera) {
   std::string words =
       fmt::format("gloam.Camera(fx={:g}, fy={:g}, cx={:g}, cy={:g}", camera.fx, camera.fy, camera.cx, camera.cy);
   if (camera.orthographic) words += ", orthographic=True";
@@ -137,7 +137,7 @@ void add_camera(py::module_& module) {
       .def_readonly("far", &Camera::far)
       .def_property_readonly("camera_to_world", &camera_to_world)
       .def_property_readonly("source", [](const Camera& self) { return text_of(self.source); })
-      .def("__repr__", &in_words);
+      .def("__repr__", &camera_in_words);
 }
 
 }  // namespace gloam::python

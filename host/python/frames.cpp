@@ -146,7 +146,7 @@ py::object plane_as_array(const SharedFrame& held, const std::string& name) {
   return of_views(held->frame, [&](const View& view) { return read_only_array(plane_of(*held, view, name), owner); });
 }
 
-std::string in_words(const HeldFrame& held) {
+std::string frame_in_words(const HeldFrame& held) {
   std::string words =
       fmt::format("<gloam.Frame {}{} x {} pixels: {}", held.name.empty() ? "" : "'" + printable(held.name) + "', ",
                   held.frame.width(), held.frame.height(), fmt::join(common_planes(held.frame), ", "));
@@ -198,7 +198,7 @@ void add_frames(py::module_& module) {
       .def("__contains__",
            [](const HeldFrame& self, const std::string& plane) { return contains(common_planes(self.frame), plane); })
       .def("__getitem__", &plane_as_array)
-      .def("__repr__", &in_words);
+      .def("__repr__", &frame_in_words);
   module.def("frame_of_arrays", &frame_of_arrays);
   module.def("image_of_arrays", &image_of_arrays);
   module.def("with_planes", &with_planes);

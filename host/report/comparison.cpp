@@ -149,8 +149,6 @@ TimeVerdict verdict_on(const Change& change, double margin) {
   return bounds.low >= -margin && bounds.high <= margin ? TimeVerdict::same : TimeVerdict::too_noisy;
 }
 
-Number median_of(const std::vector<double>& rounds) { return rounds.empty() ? Number() : Number(median(rounds)); }
-
 /// Half the width of the usual interval of each scene.
 void add_widths(const std::vector<Change>& changes, Comparison& result) {
   std::vector<std::string> scenes;
@@ -231,6 +229,8 @@ void add_notes_on_reference(Comparison& c) {
 }
 
 }  // namespace
+
+Number median_of(const std::vector<double>& values) { return values.empty() ? Number() : Number(median(values)); }
 
 std::string words(const RowName& name) {
   const std::string variant = name.variant.empty() ? "" : ", " + name.variant;

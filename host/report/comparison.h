@@ -75,4 +75,7 @@ struct Comparison {
 /// Throws Error for results of different sets, and for a file that holds a row twice.
 Comparison compare(const Source& first, const Source& second, const CompareOptions& options = {});
 
+/// Empty for an empty list.
+Number median_of(const std::vector<double>& values);
+
 }  // namespace gloam::report

@@ -12,14 +12,12 @@
 #include "base/statistics.h"
 #include "gloam/error.h"
 #include "gloam/technique.h"
+#include "report/comparison.h"
 #include "report/markdown_text.h"
 #include "technique/ambient_occlusion.h"
 
 namespace gloam::report {
 namespace {
-
-/// Empty for an empty list.
-Number median_of(const std::vector<double>& values) { return values.empty() ? Number() : Number(median(values)); }
 
 // --- Converged
 
@@ -31,7 +29,7 @@ const Converged* find(const std::vector<Converged>& list, const std::string& sce
 }
 
 /// A technique, and its variant over all peeled layers; either may be missing, and is then empty.
-struct Pair {
+struct OverLayers {
   std::string name, given, all_layers;
   bool is_over_one_layer = false;  ///< `given` takes part in the comparison for the least error
 };
@@ -46,12 +44,12 @@ std::string name_of_pair(const Converged& each) {
   return each.technique.substr(is_named_after ? peeled_prefix.size() : 0);
 }
 
-std::vector<Pair> pairs_of(const std::vector<Converged>& list) {
-  std::vector<Pair> pairs;
+std::vector<OverLayers> pairs_of(const std::vector<Converged>& list) {
+  std::vector<OverLayers> pairs;
   for (const Converged& each : list) {
     const std::string name = name_of_pair(each);
-    auto pair = std::find_if(pairs.begin(), pairs.end(), [&](const Pair& p) { return p.name == name; });
-    if (pair == pairs.end()) pair = pairs.insert(pairs.end(), Pair{.name = name});
+    auto pair = std::find_if(pairs.begin(), pairs.end(), [&](const OverLayers& p) { return p.name == name; });
+    if (pair == pairs.end()) pair = pairs.insert(pairs.end(), OverLayers{.name = name});
     (reads_peeled_layers(each.reads) ? pair->all_layers : pair->given) = each.technique;
     pair->is_over_one_layer |= reads_one_layer(each.reads);
   }
@@ -89,18 +87,18 @@ Number mean_of(const std::vector<Converged>& list, const std::vector<std::string
 }
 
 std::vector<std::string> converged_row(const std::vector<Converged>& list, const std::string& scene,
-                                       const std::vector<Pair>& pairs) {
+                                       const std::vector<OverLayers>& pairs) {
   const auto error = [&](const std::string& technique) {
     const Converged* each = find(list, scene, technique);
     return each ? error_text(each->rmse_to_truth) : "-";
   };
   std::string least = "-";
-  for (const Pair& pair : pairs) {
+  for (const OverLayers& pair : pairs) {
     const std::string text = pair.is_over_one_layer ? error(pair.given) : "-";
     if (text != "-" && (least == "-" || as_printed(text) < as_printed(least))) least = text;
   }
   std::vector<std::string> cells{plain_text(scene)};
-  for (const Pair& pair : pairs) {
+  for (const OverLayers& pair : pairs) {
     const std::string given = error(pair.given);
     const bool is_least = pair.is_over_one_layer && given != "-" && given == least;
     cells.push_back(side_by_side(is_least ? "**" + given + "**" : given, error(pair.all_layers)));
@@ -187,9 +185,9 @@ std::string converged_table(const Material& material, const std::string& effect)
     if (std::any_of(list.begin(), list.end(), [&](const Converged& each) { return each.scene == scene; }))
       scenes.push_back(scene);
   }
-  const std::vector<Pair> pairs = pairs_of(list);
+  const std::vector<OverLayers> pairs = pairs_of(list);
   std::vector<std::string> heading{"scene"}, means{"mean"}, biases{"bias, mean"};
-  for (const Pair& pair : pairs) {
+  for (const OverLayers& pair : pairs) {
     heading.push_back(plain_text(pair.name));
     means.push_back(side_by_side(error_text(mean_of(list, scenes, pair.given, &Converged::rmse_to_truth)),
                                  error_text(mean_of(list, scenes, pair.all_layers, &Converged::rmse_to_truth))));

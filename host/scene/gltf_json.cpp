@@ -155,7 +155,7 @@ std::vector<PlacedNode> placed_nodes(const json& file, const fs::path& path) {
   return placed;
 }
 
-bool finite(const glm::dmat4& m) {
+bool finite_matrix(const glm::dmat4& m) {
   double sum = 0;
   for (int i = 0; i < 16; ++i) sum += std::abs(m[i / 4][i % 4]);
   return std::isfinite(sum);
@@ -179,7 +179,7 @@ void add_camera(const json& file, const PlacedNode& placed, GltfJson& to) {
   const std::string own = text_of(member(camera, "name")), of_node = text_of(member(*placed.node, "name"));
   const glm::dvec3 forward = -glm::dvec3(placed.to_world[2]), up(placed.to_world[1]);
   SceneCamera made;
-  const bool stands = finite(placed.to_world) && glm::length(glm::cross(forward, up)) > 0;
+  const bool stands = finite_matrix(placed.to_world) && glm::length(glm::cross(forward, up)) > 0;
   const std::string name = of_node.empty() ? own : of_node;
   if (!stands || !set_lens(camera, made)) {
     to.notes.push_back(fmt::format("camera '{}' has no usable field of view or transform and was left out", name));

@@ -15,7 +15,7 @@ std::vector<std::vector<SceneRecipe>> scene_files();  // generated
 
 namespace {
 
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool finite_point(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 void check_mesh(const Scene& scene, const Mesh& mesh) {
   const size_t n = mesh.positions.size();
@@ -26,7 +26,7 @@ void check_mesh(const Scene& scene, const Mesh& mesh) {
     throw Error("{}: mesh '{}' has material {}, and there are {}", scene.name, mesh.name, mesh.material,
                 scene.materials.size());
   for (const glm::vec3& p : mesh.positions) {
-    if (!finite(p)) throw Error("{}: mesh '{}' has a vertex that is not finite", scene.name, mesh.name);
+    if (!finite_point(p)) throw Error("{}: mesh '{}' has a vertex that is not finite", scene.name, mesh.name);
     const float most = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     if (double(most) > farthest_traced)
       throw Error(
@@ -35,7 +35,7 @@ void check_mesh(const Scene& scene, const Mesh& mesh) {
           scene.name, mesh.name, most, farthest_traced);
   }
   for (const glm::vec3& n : mesh.normals) {
-    if (!finite(n)) throw Error("{}: mesh '{}' has a normal that is not finite", scene.name, mesh.name);
+    if (!finite_point(n)) throw Error("{}: mesh '{}' has a normal that is not finite", scene.name, mesh.name);
   }
   for (const glm::uvec3& t : mesh.triangles) {
     if (t.x >= n || t.y >= n || t.z >= n)

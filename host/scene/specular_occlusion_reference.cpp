@@ -15,7 +15,7 @@ namespace {
 using glm::vec3;
 
 /// Sums of weights over one half of a pixel's rays.
-struct Half {
+struct OpenHalf {
   double open = 0, all = 0;
 
   /// A lobe that leaves the surface nowhere counts as closed.
@@ -26,8 +26,8 @@ class LobeTracer {
  public:
   LobeTracer(const Tracer& tracer, double radius) : tracer_(tracer), radius_(float(radius)) {}
 
-  Half half(const Site& site, const GgxLobe& lobe, int samples, uint32_t seed) const {
-    Half sum;
+  OpenHalf half(const Site& site, const GgxLobe& lobe, int samples, uint32_t seed) const {
+    OpenHalf sum;
     for (int first = 0; first < samples; first += rays_per_packet)
       add_packet(sum, site, lobe, seed, first, rays_per_packet);
     return sum;
@@ -35,13 +35,13 @@ class LobeTracer {
 
   /// Openness of the one direction of a mirror.
   double mirror(const Site& site, const GgxLobe& lobe) const {
-    Half sum;
+    OpenHalf sum;
     add_packet(sum, site, lobe, 0, 0, 1);
     return sum.share();
   }
 
  private:
-  void add_packet(Half& sum, const Site& site, const GgxLobe& lobe, uint32_t seed, int first, int samples) const {
+  void add_packet(OpenHalf& sum, const Site& site, const GgxLobe& lobe, uint32_t seed, int first, int samples) const {
     vec3 directions[rays_per_packet];
     double weights[rays_per_packet];
     int count = 0;
@@ -91,8 +91,8 @@ Reference specular_occlusion_reference(const Tracer& tracer, const Frame& frame,
       return 1;
     }
     const auto seeds = seeds_of_halves(pixel, options.seed);
-    const Half a = lobes.half(site, lobe, samples / 2, seeds[0]), b = lobes.half(site, lobe, samples / 2, seeds[1]);
-    *value = float(Half{a.open + b.open, a.all + b.all}.share());
+    const OpenHalf a = lobes.half(site, lobe, samples / 2, seeds[0]), b = lobes.half(site, lobe, samples / 2, seeds[1]);
+    *value = float(OpenHalf{a.open + b.open, a.all + b.all}.share());
     noise = float(std::abs(a.share() - b.share()) / 2);
     return samples;
   };

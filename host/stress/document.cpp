@@ -7,8 +7,6 @@
 namespace gloam::stress {
 namespace {
 
-double number_of(const Json& value) { return value.is_null() ? INFINITY : value.get<double>(); }
-
 Json document_of(const Place& place) {
   if (place.plane.empty()) return nullptr;
   return {{"view", place.view}, {"plane", place.plane}, {"x", place.x}, {"y", place.y}, {"holds", place.holds}};
@@ -38,7 +36,7 @@ Finding finding_of(const Json& document) {
           document.at("conditions")};
 }
 
-std::string text_of(Extent extent) { return extent == Extent::quick ? "quick" : "full"; }
+std::string extent_in_words(Extent extent) { return extent == Extent::quick ? "quick" : "full"; }
 
 }  // namespace
 
@@ -117,7 +115,7 @@ Json document_of(const StressRun& run, const std::string& device_flag) {
   return {{"device", run.device},
           {"driver", run.driver},
           {"against", run.others},
-          {"extent", text_of(run.extent)},
+          {"extent", extent_in_words(run.extent)},
           {"seed", run.seed},
           {"frames", run.frames},
           {"cases", all},

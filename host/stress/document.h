@@ -1,6 +1,7 @@
 // Results of hard cases as JSON: for `gloam stress --json`, and between its own processes.
 #pragma once
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@
 namespace gloam::stress {
 
 using Json = nlohmann::ordered_json;
+
+/// A number; infinity for null, as which JSON has it.
+inline double number_of(const Json& value) { return value.is_null() ? INFINITY : value.get<double>(); }
 
 /// Infinite numbers become null: JSON has no infinity.
 Json document_of(const CaseResult& result);

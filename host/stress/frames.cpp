@@ -17,7 +17,7 @@ namespace {
 constexpr int invented_layers = 3;
 
 /// The number at the end of "peel.03"; 0 for other names.
-int number_of(const std::string& name) {
+int number_in(const std::string& name) {
   const std::optional<StackLayer> layer = stack_layer(name);
   return layer ? layer->number : 0;
 }
@@ -33,7 +33,7 @@ Shot shot_of(const Frame& frame, const View& view) { return {*view.camera, frame
 
 float invented_value(const PlaneKind& kind, const Frame& frame, const View& view, int component, int x, int y) {
   const float depth = view.find("depth")->channels[0].at(x, y);
-  if (kind.meaning == PlaneKind::view_depth) return depth * (1 + 0.1f * float(number_of(kind.name)));
+  if (kind.meaning == PlaneKind::view_depth) return depth * (1 + 0.1f * float(number_in(kind.name)));
   if (kind.meaning == PlaneKind::unit_vector) {
     const Plane* normal = view.find("normal");
     return normal ? normal->channels[size_t(component)].at(x, y) : component == 2 ? 1.0f : 0.0f;

@@ -20,8 +20,6 @@ struct Row {
   bool held = true;
 };
 
-double number_of(const Json& value) { return value.is_null() ? INFINITY : value.get<double>(); }
-
 /// Escapes text for a table.
 std::string cell(std::string text) {
   std::string out;

@@ -11,11 +11,11 @@ namespace {
 
 using namespace gloam::bench;
 
-Choice tried(double ms, double rmse) { return {.variation = {}, .ms = ms, .rmse = rmse}; }
+bench::Choice tried(double ms, double rmse) { return {.variation = {}, .ms = ms, .rmse = rmse}; }
 
 TEST(PickFinalists, WithinTheBudgetAreNotCrowdedOutByNearMisses) {
   // Thirty just above the budget, all more accurate than any within it.
-  std::vector<Choice> tries;
+  std::vector<bench::Choice> tries;
   for (int i = 0; i < 30; ++i) tries.push_back(tried(11 + 0.1 * i, 0.1 + 0.001 * i));
   for (int i = 0; i < 10; ++i) tries.push_back(tried(9 - 0.1 * i, 0.2 + 0.001 * i));
   const size_t best_within = 30, fastest = tries.size();
@@ -26,13 +26,14 @@ TEST(PickFinalists, WithinTheBudgetAreNotCrowdedOutByNearMisses) {
 }
 
 TEST(PickFinalists, AreTheMostAccurateWhereFewFit) {
-  const std::vector<Choice> tries = {tried(20, 0.1), tried(12, 0.2), tried(9, 0.3), tried(14, 0.15), tried(5, 0.4)};
+  const std::vector<bench::Choice> tries = {tried(20, 0.1), tried(12, 0.2), tried(9, 0.3), tried(14, 0.15),
+                                            tried(5, 0.4)};
   EXPECT_EQ(finalists_of(tries, {.budget = 10}), (std::vector<size_t>{4, 2, 3, 1}));
   EXPECT_EQ(finalists_of(tries, {.budget = 1}), (std::vector<size_t>{4}));  // none fits: the nearest miss
 }
 
 TEST(PickFinalists, WithinAnErrorAreTheCheapest) {
-  std::vector<Choice> tries;
+  std::vector<bench::Choice> tries;
   for (int i = 0; i < 20; ++i) tries.push_back(tried(20 - i, 0.1));
   tries.push_back(tried(0.5, 0.11));  // an error does not change when it is measured again
   tries.push_back(tried(30, 0.05));
@@ -66,7 +67,7 @@ class PickContest : public testing::Test {
       seconds_ += 1e-3 * ms;
       return ms;
     };
-    const auto attempt = [&](size_t i) -> std::optional<Choice> {
+    const auto attempt = [&](size_t i) -> std::optional<bench::Choice> {
       seconds_ += compiling;
       return Choice{.variation = settings_[i], .ms = time(i), .rmse = made_[i].rmse};
     };

@@ -53,14 +53,14 @@ FrameRow row_of(int frame, const std::filesystem::path& path, const ReadOptions&
 }
 
 /// A property that some frames have in another form than most.
-struct Difference {
+struct DifferenceInShot {
   std::string what, usual;
   std::map<std::string, std::vector<int>> others;  ///< frames, by their form
 };
 
 template <typename Property>
-void add_difference(std::vector<Difference>& differences, const std::vector<FrameRow>& rows, const std::string& what,
-                    const Property& property) {
+void add_difference(std::vector<DifferenceInShot>& differences, const std::vector<FrameRow>& rows,
+                    const std::string& what, const Property& property) {
   std::map<std::string, std::vector<int>> forms;
   for (const FrameRow& row : rows) {
     if (row.error.empty()) forms[property(row)].push_back(row.frame);
@@ -68,13 +68,13 @@ void add_difference(std::vector<Difference>& differences, const std::vector<Fram
   if (forms.size() < 2) return;
   const auto usual = std::max_element(forms.begin(), forms.end(),
                                       [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
-  Difference difference{what, usual->first, forms};
+  DifferenceInShot difference{what, usual->first, forms};
   difference.others.erase(usual->first);
   differences.push_back(difference);
 }
 
-std::vector<Difference> differences_of(const std::vector<FrameRow>& rows) {
-  std::vector<Difference> differences;
+std::vector<DifferenceInShot> differences_of(const std::vector<FrameRow>& rows) {
+  std::vector<DifferenceInShot> differences;
   add_difference(differences, rows, "size", [](const FrameRow& row) { return row.size; });
   add_difference(differences, rows, "views",
                  [](const FrameRow& row) { return fmt::format("{}", fmt::join(row.views, ", ")); });
@@ -102,7 +102,7 @@ std::vector<int> missing_frames(const std::vector<FrameRow>& rows, const FrameCh
 }
 
 Json document_of(const std::string& pattern, const std::vector<FrameRow>& rows,
-                 const std::vector<Difference>& differences, const std::vector<int>& missing) {
+                 const std::vector<DifferenceInShot>& differences, const std::vector<int>& missing) {
   Json frames = Json::array(), differs = Json::array();
   for (const FrameRow& row : rows) {
     Json frame = {{"frame", row.frame}, {"file", row.file.string()}};
@@ -112,13 +112,13 @@ Json document_of(const std::string& pattern, const std::vector<FrameRow>& rows,
       frame["error"] = row.error;
     frames.push_back(frame);
   }
-  for (const Difference& difference : differences)
+  for (const DifferenceInShot& difference : differences)
     differs.push_back({{"what", difference.what}, {"usual", difference.usual}, {"others", difference.others}});
   return {{"pattern", pattern}, {"frames", frames}, {"missing", missing}, {"differs", differs}};
 }
 
 void print_shot(const std::string& pattern, const std::vector<FrameRow>& rows,
-                const std::vector<Difference>& differences, const std::vector<int>& missing) {
+                const std::vector<DifferenceInShot>& differences, const std::vector<int>& missing) {
   fmt::print("{}: {} frames, {} to {}\n\n", printable(pattern), rows.size(), rows.front().frame, rows.back().frame);
   std::vector<std::vector<std::string>> table = {{"frame", "size", "camera", "views", "planes"}};
   for (const FrameRow& row : rows)
@@ -128,7 +128,7 @@ void print_shot(const std::string& pattern, const std::vector<FrameRow>& rows,
   print_table(table, 5);
   if (!missing.empty() || !differences.empty()) fmt::print("\n");
   if (!missing.empty()) fmt::print("missing  {}\n", frames_in_words(missing));
-  for (const Difference& difference : differences) {
+  for (const DifferenceInShot& difference : differences) {
     for (const auto& [form, frames] : difference.others)
       fmt::print("differs  {}: {} in {}, and mostly {}\n", printable(difference.what), printable(form),
                  frames_in_words(frames), printable(difference.usual));
@@ -157,7 +157,7 @@ void describe_shot(const std::string& pattern, const FrameChoice& choice, const 
   for (const SequenceFrame& frame : list_frames({files}, {choice.frames, MissingFrames::skip}, notes))
     rows.push_back(row_of(frame.number, files.path_of(frame.number), options));
   const std::vector<int> missing = missing_frames(rows, choice);
-  const std::vector<Difference> differences = differences_of(rows);
+  const std::vector<DifferenceInShot> differences = differences_of(rows);
   json.write(document_of(pattern, rows, differences, missing));
   if (!json.only_json()) print_shot(pattern, rows, differences, missing);
   const auto unused = unused_cameras(rows);

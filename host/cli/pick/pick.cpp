@@ -97,7 +97,7 @@ void print(const Picked& picked, PickBy by, const DeviceInfo& device) {
   std::vector<std::vector<std::string>> rows = {{"", "technique", "preset", "resolution", "ms", "RMSE", "SSIM"}};
   if (has_flip) rows[0].push_back("FLIP");
   for (size_t i = 0; i < picked.finalists.size(); ++i) {
-    const Choice& c = picked.finalists[i];
+    const bench::Choice& c = picked.finalists[i];
     rows.push_back({i == picked.best ? ">" : "", c.variation.technique->name, c.variation.name(),
                     resolution_of(c.variation), fmt::format("{:.2f}", c.ms), fmt::format("{:.4f}", c.rmse),
                     c.ssim ? fmt::format("{:.4f}", *c.ssim) : "-"});
