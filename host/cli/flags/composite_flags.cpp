@@ -6,7 +6,7 @@
 namespace gloam::cli {
 namespace {
 
-constexpr const char* group = "Composite";
+constexpr const char* composite_heading = "Composite";
 
 std::array<double, 3> parse_tint(const std::string& text, const std::string& flag) {
   const std::vector<std::string> words = split_list(text, flag);
@@ -21,7 +21,7 @@ std::array<double, 3> parse_tint(const std::string& text, const std::string& fla
 }  // namespace
 
 void CompositeFlags::add_to(CLI::App& app) {
-  const Heading heading(app, group);
+  const Heading heading(app, composite_heading);
   CLI::Option* composite =
       add_text(app, "--composite", path, "OUT.exr",
                "EXR file to write: colour times AO, or colour plus reflection, scene-linear; the name of --into "

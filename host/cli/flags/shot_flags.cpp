@@ -8,14 +8,14 @@
 namespace gloam::cli {
 namespace {
 
-constexpr const char* group = "Shots";
+constexpr const char* shots_heading = "Shots";
 
 /// Adds --chunks, --print and --warm-up.
 void add_chunks(CLI::App& app, ShotFlags& flags) {
-  add_chunk_flags(app, flags.chunks, flags.print, "a shot", group);
+  add_chunk_flags(app, flags.chunks, flags.print, "a shot", shots_heading);
   add_number(app, "--warm-up", flags.warm_up, {0, 1000000},
              "with --temporal: this many of the first frames are computed for those that follow, and not written", "N")
-      ->group(group);
+      ->group(shots_heading);
 }
 
 }  // namespace
@@ -23,28 +23,28 @@ void add_chunks(CLI::App& app, ShotFlags& flags) {
 void add_frames(CLI::App& app, FrameChoice& choice) {
   add_parsed(app, "--frames", choice.frames, parse_frame_numbers,
              "frames of a shot: 1001-1100, 1-99x2 or 1,5,9-12; default: all", "A-B")
-      ->group(group);
+      ->group(shots_heading);
 }
 
 void add_missing(CLI::App& app, FrameChoice& choice) {
   add_choice(app, "--missing", choice.missing, missing_words,
              "frames that are not there: refuse (the default), leave out, or take the nearest one before")
-      ->group(group);
+      ->group(shots_heading);
 }
 
 void add_missing_without_hold(CLI::App& app, FrameChoice& choice) {
   choice.may_hold = false;
   add_choice(app, "--missing", choice.missing, {{"error", MissingFrames::error}, {"skip", MissingFrames::skip}},
              "frames that are not there: refuse (the default) or leave out")
-      ->group(group);
+      ->group(shots_heading);
 }
 
 void add_resume(CLI::App& app, bool& resume) {
-  app.add_flag("--resume", resume, "leave frames alone that are whole and were made in the same way")->group(group);
+  app.add_flag("--resume", resume, "leave frames alone that are whole and were made in the same way")->group(shots_heading);
 }
 
 void ShotFlags::add_to(CLI::App& app, bool divides) {
-  const Heading heading(app, group);
+  const Heading heading(app, shots_heading);
   add_frames(app, choice);
   add_missing(app, choice);
   add_resume(app, resume);
