@@ -5,6 +5,7 @@
 #include "auto/automatic.h"
 #include "base/lists.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 
 namespace gloam {
 namespace {
@@ -117,7 +118,8 @@ Candidates candidates_for(PlanRequest asked, const FrameFacts& facts, const Comp
     }
     if (!has_needed_setting(*technique, asked)) {
       const std::string& needs = technique->effect.needs;
-      found.impossible.push_back(impossible(*technique, fmt::format("none is given (--set {}=FILE)", needs)));
+      found.impossible.push_back(
+          impossible(*technique, fmt::format("none is given ({})", option("set", needs + "=FILE"))));
       continue;
     }
     std::string why;
@@ -135,8 +137,9 @@ Candidates candidates_for(PlanRequest asked, const FrameFacts& facts, const Comp
   if (found.possible.empty() && missing) throw *missing;
   // Colour holds all effects: nothing is to be computed.
   if (found.possible.empty()) return found;
-  const bool has_filter = std::any_of(found.possible.begin(), found.possible.end(),
-                                      [&](const Candidate& candidate) { return candidate.asked.filter == asked.filter; });
+  const bool has_filter = std::any_of(found.possible.begin(), found.possible.end(), [&](const Candidate& candidate) {
+    return candidate.asked.filter == asked.filter;
+  });
   if (!has_filter) found.possible.front().asked.filter = asked.filter;  // its plan reports the error
   for (const auto& setting : asked.settings) {
     const bool is_known = std::any_of(found.possible.begin(), found.possible.end(), [&](const Candidate& candidate) {

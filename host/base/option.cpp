@@ -40,6 +40,8 @@ constexpr Spelling spellings[] = {
     {"temporal", "", "PlanRequest::temporal"},
     {"real", "", "RunOptions::real"},
     {"set", "settings", "settings"},
+    {"budget", "", "BudgetGoal::ms"},
+    {"error", "", "BudgetGoal::error"},
     {"ambient", "", "ComposeOptions::ambient"},
     {"color-holds", "", "ComposeOptions::holds"},
     {"peel", "", "CaptureOptions::peel"},

@@ -2,6 +2,7 @@
 
 #include "base/elapsed.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "scene/fingerprint.h"
 
 namespace gloam {
@@ -11,9 +12,10 @@ NamedScene scene_for(const NamedScene& given, const FrameFile& file) {
   if (!given.name.empty()) return given;
   NamedScene named = scene_in_attribute(file.text_attribute("gloamScene"));
   const std::string frame = file.path().string();
-  if (named.name.empty()) throw UsageError("{}: does not say which scene it shows; give --scene SCENE", frame);
+  if (named.name.empty())
+    throw UsageError("{}: does not say which scene it shows; give {}", frame, option("scene", "SCENE"));
   if (!find_builtin_scene(named.name))
-    throw UsageError("{}: shows '{}', which is not built in; give --scene and the file", frame, named.name);
+    throw UsageError("{}: shows '{}', which is not built in; give {}", frame, named.name, option("scene", "FILE"));
   named.settings.insert(named.settings.end(), given.settings.begin(), given.settings.end());
   return named;
 }
@@ -31,8 +33,8 @@ constexpr const char* moment = "time";
 void check_settings(const Settings& settings, const ShotRecipe& shot) {
   for (const auto& [name, value] : settings) {
     if (name == moment)
-      throw UsageError("--{} {}: --shot {} moves the objects and sets it in each frame; leave it out", name, value,
-                       shot.name);
+      throw UsageError("{}: {} moves the objects and sets it in each frame; leave it out", option(name, value),
+                       option("shot", shot.name));
   }
 }
 

@@ -1,6 +1,7 @@
 #include "base/files.h"
 #include "evidence/coefficients.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "shared/rays/environment_params.h"
 #include "shared/sampling/ambient_occlusion.h"
 #include "technique/ambient_occlusion.h"
@@ -119,7 +120,8 @@ std::vector<Pass> environment_over_layers(const ParameterValues& values) { retur
 std::string environment_note(const ParameterValues& values, const View& view) {
   return environment_assumption(
       values.as<EnvironmentParams>(), view,
-      "environment: no map is given, so light is 1 from all around; give --environment FILE, a lat-long map");
+      fmt::format("environment: no map is given, so light is 1 from all around; give {}, a lat-long map",
+                  option("environment", "FILE")));
 }
 
 /// The technique that `ao` stands for, and that `gloam auto` runs: the nearest to the truth on nearly every frame (README.md).

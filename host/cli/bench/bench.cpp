@@ -259,6 +259,28 @@ void add_subject_flags(CLI::App& command, BenchCommand& flags) {
   frame->excludes(scenes)->excludes(size);
 }
 
+/// How much is measured, and how often.
+void add_extent_flags(CLI::App& command, BenchCommand& flags) {
+  add_choice(command, "--ladder", flags.ladder,
+             {{"none", LadderFor::none}, {"presets", LadderFor::presets}, {"all", LadderFor::all}},
+             "where errors come from, step by step; all: of variants too; default presets");
+  add_number(command, "--rounds", flags.rounds, allowed_rounds,
+             "each runs everything once, in turn; default 9 with --all, else 6 to 30: until the ratio of each setting "
+             "is known to 2 %",
+             "N");
+  CLI::Option* time = add_parsed(command, "--time", flags.time, parse_time,
+                                 "how long measuring may take, the front first, then the rest as time allows; what was "
+                                 "left out is said; capturing and "
+                                 "tracing built-in scenes does not count; default 1m",
+                                 "1m");
+  command.add_flag("--all", flags.all, "measure everything, however long it takes; of a shot and of --set always")
+      ->excludes(time);
+  command.add_flag("--no-growth", flags.no_growth, "leave out how times grow with pixels, samples, radius ...");
+  command.add_flag("--no-checks", flags.no_checks,
+                   "leave out what changes with the resolution and what bare planes read");
+  command.add_flag("--no-images", flags.no_images, "leave out the pictures in DIR/images");
+}
+
 }  // namespace
 
 void add_bench(CLI::App& app) {
@@ -288,24 +310,7 @@ void add_bench(CLI::App& app) {
            "it (repeatable: every combination)")
       ->expected(1)
       ->take_all();
-  add_choice(*command, "--ladder", flags->ladder,
-             {{"none", LadderFor::none}, {"presets", LadderFor::presets}, {"all", LadderFor::all}},
-             "where errors come from, step by step; all: of variants too; default presets");
-  add_number(*command, "--rounds", flags->rounds, allowed_rounds,
-             "each runs everything once, in turn; default 9 with --all, else 6 to 30: until the ratio of each setting "
-             "is known to 2 %",
-             "N");
-  CLI::Option* time = add_parsed(*command, "--time", flags->time, parse_time,
-                                 "how long measuring may take, the front first, then the rest as time allows; what was "
-                                 "left out is said; capturing and "
-                                 "tracing built-in scenes does not count; default 1m",
-                                 "1m");
-  command->add_flag("--all", flags->all, "measure everything, however long it takes; of a shot and of --set always")
-      ->excludes(time);
-  command->add_flag("--no-growth", flags->no_growth, "leave out how times grow with pixels, samples, radius ...");
-  command->add_flag("--no-checks", flags->no_checks,
-                    "leave out what changes with the resolution and what bare planes read");
-  command->add_flag("--no-images", flags->no_images, "leave out the pictures in DIR/images");
+  add_extent_flags(*command, *flags);
   flags->DeviceFlags::add_to(*command);
   CLI::Option* paper =
       add_text(*command, "--paper", flags->paper, "NAME",
