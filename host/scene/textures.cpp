@@ -1,7 +1,5 @@
 #include "scene/textures.h"
 
-#include <stb/stb_image.h>
-
 #include <array>
 #include <climits>
 #include <cmath>
@@ -13,6 +11,14 @@
 #include "base/files.h"
 #include "base/srgb.h"
 #include "gloam/error.h"
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC  // other libraries bring versions of their own
+#define STBI_NO_STDIO
+#ifdef __SANITIZE_ADDRESS__
+#define STBI_NO_SIMD  // GCC refuses its intrinsics where shifts are watched
+#endif
+#include <stb/stb_image.h>
 
 namespace gloam {
 namespace {
