@@ -27,7 +27,7 @@ FIRST_DEVICE = """"$(gloam list devices --json - | python3 -c 'import json, sys;
 FRAME = "gloam capture gallery -o frame.exr --size 240x135\n"
 SHOT = "gloam capture gallery -o 'shot.####.exr' --shot walk --frames 1-4 --size 160x90 --planes normal,color\n"
 TRUTHS = "gloam reference ao 'shot.####.exr' -o 'truth.####.exr' --samples 8\n"
-# A path of the length and, with --camera-path, the size that a page needs.
+# A path of the length that a page needs.
 PATH = """echo '{"width": 96, "height": 54, "fx": 64, "fy": 64, "cx": 48, "cy": 27, "frames": FRAMES,
   "path": [{"camera_to_world": [[1, 0, 0, 1.6], [0, 1, 0, 1.65], [0, 0, 1, 2.5], [0, 0, 0, 1]]},
            {"camera_to_world": [[1, 0, 0, 1.9], [0, 1, 0, 1.65], [0, 0, 1, 1.5], [0, 0, 0, 1]]}]}' > walk.json\n"""
@@ -36,7 +36,7 @@ SMALL = "--scenes plane --techniques gtao --presets low --variants none --size 9
 
 PAGES = {
     "README.md": Page(
-        prepare=PATH.replace("FRAMES", "100") + """gloam capture gallery -o 'path.####.exr' --planes normal --camera-path walk.json
+        prepare=PATH.replace("FRAMES", "100") + """gloam capture gallery -o 'path.####.exr' --planes normal --size 96x54 --camera-path walk.json
             for i in $(seq 1001 1100); do mv path.0${i#1}.exr shot.$i.exr; done""",
         python="import numpy\n"
                "z = numpy.full((1080, 1920), 5, numpy.float32)\n"
