@@ -36,8 +36,7 @@ std::string note_on_goal(const Spent& spent, const BudgetGoal& goal) {
                        spent.expected_error);
   return fmt::format(
       "{}: nothing fits, so all effects were left out; looking takes {:.2f} ms, and with the cheapest, {}, it is "
-      "{:.2f} "
-      "ms",
+      "{:.2f} ms",
       in_words(goal), spent.glance_ms, spent.cheapest, spent.cheapest_ms);
 }
 

@@ -196,8 +196,7 @@ Draw draw(const Technique& technique, const Device& device, Extent extent, uint3
   }
   // Positions are in world space, so the camera needs a pose.
   if (!is_module && (random.one_in(2) || first.find("position"))) first.camera->pose = any_pose(random);
-  const std::vector<RunOptions> ways = {{.math = Math::fast, .lanes = usual_lanes(device).back()},
-                                        {.math = Math::precise, .lanes = 1}};
+  const std::vector<RunOptions> ways = two_ways(device);
   if (extent == Extent::quick)
     draw_quick_settings(drawn, technique, ways, seed, random);
   else

@@ -82,6 +82,10 @@ std::vector<int> usual_lanes(const Device& device) {
   return own == 1 ? std::vector<int>{1} : std::vector<int>{1, own};
 }
 
+std::vector<RunOptions> two_ways(const Device& device) {
+  return {{.math = Math::fast, .lanes = usual_lanes(device).back()}, {.math = Math::precise, .lanes = 1}};
+}
+
 Plan plan_for(const Technique& technique, Frame& frame, const Settings& settings) {
   PlanRequest request;
   request.outputs = {technique.name};

@@ -21,6 +21,8 @@ std::string exact(double value);
 
 /// 1 and the device's own lane width, each once.
 std::vector<int> usual_lanes(const Device& device);
+/// Fast mathematics with the most of these lanes, and precise with one.
+std::vector<RunOptions> two_ways(const Device& device);
 
 /// The plan for all outputs of a technique, from the planes of the frame. Planes that no technique makes are invented (frames.h)
 /// and added to the frame, and a second view if the technique needs two.

@@ -108,9 +108,7 @@ std::vector<RunOptions> Probe::all_ways() const {
   return all;
 }
 
-std::vector<RunOptions> Probe::two_ways() const {
-  return {{.math = Math::fast, .lanes = usual_lanes(device()).back()}, {.math = Math::precise, .lanes = 1}};
-}
+std::vector<RunOptions> Probe::two_ways() const { return stress::two_ways(device()); }
 
 std::vector<RunOptions> Probe::ways_of_rare_settings() const {
   return is_quick() ? std::vector<RunOptions>{two_ways().front()} : two_ways();
