@@ -17,8 +17,12 @@ def file(tmp_path_factory):
 
 
 def decisions(effects):
-    """Effects without times."""
-    return [{name: value for name, value in effect.items() if not name.startswith("ms")} for effect in effects]
+    """Effects without times, and without reasons, which name an option as each caller spells it."""
+    return [{name: value for name, value in effect.items() if not name.startswith("ms") and name != "why"} for effect in effects]
+
+
+def reasons(effects):
+    return {effect["name"]: effect["why"] for effect in effects}
 
 
 def planes_of(path, names):
@@ -36,6 +40,9 @@ def test_auto_decides_and_computes_as_the_command_does(file, command, tmp_path):
             assert numpy.array_equal(result[name], values), name
         assert set(told) - set(result.facts) == {"memory_bytes"}
         assert (result.radius, result.radius_from) == (0.5, "flag")
+        own, the_command = (reasons(effects) for effects in (result.effects, told["effects"]))
+        assert {name for name in own if own[name] != the_command[name]} == {"light of an environment"}
+        assert "settings=" in own["light of an environment"] and "--set" in the_command["light of an environment"]
     gloam.write(tmp_path / "own.exr", result)
     stored, own = gloam.read(tmp_path / "out.exr"), gloam.read(tmp_path / "own.exr")
     assert stored.planes == own.planes and numpy.array_equal(stored["depth"], own["depth"])
