@@ -1,7 +1,8 @@
 #include "run/launch.h"
 
 #include <algorithm>
-#include <chrono>
+#include <cstdlib>
+#include <string_view>
 
 #include "base/cpu_time.h"
 
@@ -53,33 +54,40 @@ size_t most_per_group_of(const cl::Kernel& kernel, const Device::Impl& device, c
 
 }  // namespace
 
-Launched launch(Device::Impl& device, cl::Kernel& kernel, const Pass& pass, const Layout& layout,
-                const Tuning& tuning) {
-  const auto start = std::chrono::steady_clock::now();
-  const double cpu_before = process_cpu_ms();
+bool launches_ahead(const DeviceInfo& info) {
+  const char* asked = std::getenv("GLOAM_LAUNCHES");
+  return info.has_timestamps && (info.type != "cpu" || (asked && std::string_view(asked) == "ahead"));
+}
+
+Launch launch(Device::Impl& device, cl::Kernel& kernel, const Pass& pass, const Layout& layout, const Tuning& tuning) {
+  Launch launch{.start = std::chrono::steady_clock::now(), .cpu_before = process_cpu_ms()};
   const size_t columns = size_t(layout.pitch / tuning.lanes), rows = size_t(layout.height);
   const cl::NDRange group = group_size(device.info, columns, rows, most_per_group_of(kernel, device, tuning));
   const size_t strip = columns_of_strip(device.info, pass, columns, group, tuning.lanes);
   const size_t rows_left = group.dimensions() == 2 ? rows % group[1] : 0;
-  cl::Event first, last;
   for (size_t from = 0; from < columns; from += strip)
     device.queue.enqueueNDRangeKernel(kernel, cl::NDRange(from, 0),
                                       cl::NDRange(std::min(strip, columns - from), rows - rows_left), group, nullptr,
-                                      from == 0 ? &first : &last);
-  if (strip >= columns) last = first;
+                                      from == 0 ? &launch.first : &launch.last);
+  if (strip >= columns) launch.last = launch.first;
   if (rows_left > 0)
     device.queue.enqueueNDRangeKernel(kernel, cl::NDRange(0, rows - rows_left), cl::NDRange(columns, rows_left),
-                                      cl::NDRange(group[0], 1), nullptr, &last);
-  last.wait();
-  const double cpu = process_cpu_ms() - cpu_before;
-  const double wall = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  for (const cl::Event& event : {first, last}) {
+                                      cl::NDRange(group[0], 1), nullptr, &launch.last);
+  return launch;
+}
+
+Launched finish(const Device::Impl& device, const Launch& launch) {
+  launch.last.wait();
+  const double cpu = process_cpu_ms() - launch.cpu_before;
+  const double wall =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - launch.start).count();
+  for (const cl::Event& event : {launch.first, launch.last}) {
     const cl_int status = event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>();
     if (status < 0) throw cl::Error(status, "kernel execution");
   }
   if (!device.info.has_timestamps) return {wall, cpu};
-  const cl_ulong from = first.getProfilingInfo<CL_PROFILING_COMMAND_START>();
-  const cl_ulong to = last.getProfilingInfo<CL_PROFILING_COMMAND_END>();
+  const cl_ulong from = launch.first.getProfilingInfo<CL_PROFILING_COMMAND_START>();
+  const cl_ulong to = launch.last.getProfilingInfo<CL_PROFILING_COMMAND_END>();
   return {to > from ? double(to - from) * 1e-6 : wall, cpu};
 }
 

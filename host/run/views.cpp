@@ -114,25 +114,88 @@ void count_listed(const Plan& plan, ViewOnDevice& target, std::map<std::string, 
   for (const std::string& list : lists) listed[list] += target.buffers.length_of_list(list);
 }
 
-/// Runs pass `k` of a target once. `counts`: its time is kept.
-void launch_once(const Plan& plan, ViewOnDevice& target, size_t k, Device::Impl& device, const Tuning& tuning,
-                 bool counts) {
-  const PlannedPass& planned = plan.passes[target.passes[k]];
-  try {
-    constexpr cl_int nothing = 0;
-    for (const Binding& written : planned.pass.writes) {
-      if (written.starts_empty)
-        device.queue.enqueueFillBuffer(target.buffers.of(written.plane).front(), nothing, 0, sizeof nothing);
+/// The launches of all passes of a plan, `repeat` times. Where the device tells their times afterwards, those of one repetition are waited
+/// for together, so that the device never waits for the host.
+class Launches {
+ public:
+  Launches(const Plan& plan, Device::Impl& device, const RunOptions& options, const Tuning& tuning, int count)
+      : plan_(plan),
+        device_(device),
+        options_(options),
+        tuning_(tuning),
+        all_(count * (options.repeat + warm_ups())),
+        ahead_(launches_ahead(device.info)) {}
+
+  /// Calls `launch_all`, which calls `launch` for each pass of each target, for each repetition.
+  template <typename Function>
+  void repeat(const Function& launch_all) {
+    for (int i = -warm_ups(); i < options_.repeat; ++i) {
+      counts_ = i >= 0;
+      launch_all();
+      finish_all();
     }
-    const Launched launched =
-        launch(device, target.kernels[k], planned.pass, reduced(target.layout, planned.pass.scale), tuning);
-    if (!counts) return;
-    target.times[k].ms.push_back(launched.ms);
-    if (device.info.type == "cpu") target.times[k].cpu_ms.push_back(launched.cpu_ms);
-  } catch (const cl::Error& error) {
-    throw Error("{} on {}: {} ({})", planned.label(), device.info.name, error.what(), cl_error_name(error.err()));
   }
-}
+
+  /// Pass `k` of a target.
+  void launch(ViewOnDevice& target, size_t k) {
+    told(target, k, [&] {
+      const PlannedPass& planned = plan_.passes[target.passes[k]];
+      constexpr cl_int nothing = 0;
+      for (const Binding& written : planned.pass.writes) {
+        if (written.starts_empty)
+          device_.queue.enqueueFillBuffer(target.buffers.of(written.plane).front(), nothing, 0, sizeof nothing);
+      }
+      under_way_.push_back({&target, k,
+                            gloam::launch(device_, target.kernels[k], planned.pass,
+                                          reduced(target.layout, planned.pass.scale), tuning_)});
+    });
+    if (!ahead_) finish_all();
+  }
+
+ private:
+  struct UnderWay {
+    ViewOnDevice* target;
+    size_t k;
+    Launch launch;
+  };
+
+  int warm_ups() const { return options_.repeat > 1 ? 1 : 0; }
+
+  /// Calls a function; an error of OpenCL's names the pass.
+  template <typename Function>
+  void told(const ViewOnDevice& target, size_t k, const Function& function) {
+    try {
+      function();
+    } catch (const cl::Error& error) {
+      throw Error("{} on {}: {} ({})", plan_.passes[target.passes[k]].label(), device_.info.name, error.what(),
+                  cl_error_name(error.err()));
+    }
+  }
+
+  void finish_all() {
+    for (const UnderWay& each : under_way_) {
+      told(*each.target, each.k, [&] {
+        const Launched launched = finish(device_, each.launch);
+        if (!counts_) return;
+        PassTime& times = each.target->times[each.k];
+        times.ms.push_back(launched.ms);
+        if (device_.info.type == "cpu" && !ahead_) times.cpu_ms.push_back(launched.cpu_ms);
+      });
+      if (options_.progress) options_.progress(++done_, all_);
+    }
+    under_way_.clear();
+  }
+
+  const Plan& plan_;
+  Device::Impl& device_;
+  const RunOptions& options_;
+  const Tuning tuning_;
+  const int all_;
+  const bool ahead_;
+  bool counts_ = false;
+  int done_ = 0;
+  std::vector<UnderWay> under_way_;
+};
 
 /// Adds a view's planes and times to the result.
 void collect(const Plan& plan, ViewOnDevice& target, RunResult& result) {
@@ -151,15 +214,12 @@ void run_views(const Plan& plan, const Frame& frame, const std::vector<const Vie
   std::vector<ViewOnDevice> targets;
   for (const View* view : views) targets.push_back(view_on_device(plan, frame, *view, device));
   add_kernels(plan, targets, device, options, tuning.lanes);
-  size_t launches = 0, done = 0;
-  for (const ViewOnDevice& target : targets) launches += target.kernels.size();
-  const int warm_ups = options.repeat > 1 ? 1 : 0;
-  for (int i = -warm_ups; i < options.repeat; ++i) {
-    for_each_launch(plan, targets, [&](ViewOnDevice& target, size_t k) {
-      launch_once(plan, target, k, device, tuning, i >= 0);
-      if (options.progress) options.progress(int(++done), int(launches) * (options.repeat + warm_ups));
-    });
-  }
+  size_t count_of_kernels = 0;
+  for (const ViewOnDevice& target : targets) count_of_kernels += target.kernels.size();
+  Launches launches(plan, device, options, tuning, int(count_of_kernels));
+  launches.repeat([&] {
+    for_each_launch(plan, targets, [&](ViewOnDevice& target, size_t k) { launches.launch(target, k); });
+  });
   for (ViewOnDevice& target : targets) {
     count(plan, target, tuning.lanes, false, counted);
     collect(plan, target, result);
@@ -176,14 +236,11 @@ class KeyViewsRun {
         frame_(frame),
         device_(device),
         options_(options),
-        tuning_(tuning),
+        lanes_(tuning.lanes),
         counted_(counted),
         roles_(key_view_roles(int(frame.views.size()), spacing)),
-        results_(frame.views.size()) {
-    for (const KeyViewRole& role : roles_) {
-      for (const PlannedPass& planned : plan.passes) launches_ += is_meant_for(planned.pass, 0, role.is_key);
-    }
-  }
+        launches_(plan, device, options, tuning, count_of_kernels()),
+        results_(frame.views.size()) {}
 
   void run(RunResult& result) {
     for (size_t i = 0; i < roles_.size(); ++i) {
@@ -224,16 +281,20 @@ class KeyViewsRun {
 
   void compute(ViewOnDevice& target, const OtherViews& others) {
     for (size_t k = 0; k < plan_.passes.size(); ++k) {
-      if (runs_on(plan_.passes[k], target, 0)) add_kernel(plan_, k, target, others, device_, options_, tuning_.lanes);
+      if (runs_on(plan_.passes[k], target, 0)) add_kernel(plan_, k, target, others, device_, options_, lanes_);
     }
-    const int warm_ups = options_.repeat > 1 ? 1 : 0;
-    for (int i = -warm_ups; i < options_.repeat; ++i) {
-      for (size_t k = 0; k < target.kernels.size(); ++k) {
-        launch_once(plan_, target, k, device_, tuning_, i >= 0);
-        if (options_.progress) options_.progress(++done_, launches_ * (options_.repeat + warm_ups));
-      }
+    launches_.repeat([&] {
+      for (size_t k = 0; k < target.kernels.size(); ++k) launches_.launch(target, k);
+    });
+    count(plan_, target, lanes_, target.is_key_view, counted_);
+  }
+
+  int count_of_kernels() const {
+    int kernels = 0;
+    for (const KeyViewRole& role : roles_) {
+      for (const PlannedPass& planned : plan_.passes) kernels += is_meant_for(planned.pass, 0, role.is_key);
     }
-    count(plan_, target, tuning_.lanes, target.is_key_view, counted_);
+    return kernels;
   }
 
   void release_before(size_t end) {
@@ -247,10 +308,10 @@ class KeyViewsRun {
   const Frame& frame_;
   Device::Impl& device_;
   const RunOptions& options_;
-  const Tuning tuning_;
-  int launches_ = 0, done_ = 0;  // launches_: per repeat
+  const int lanes_;
   Counted& counted_;
   std::vector<KeyViewRole> roles_;
+  Launches launches_;
   std::vector<RunResult> results_;       // view by view
   std::map<size_t, ViewOnDevice> keys_;  // key views on the device
 };
