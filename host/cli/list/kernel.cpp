@@ -25,8 +25,8 @@ std::vector<Plan> plans_with_all_passes(const std::string& technique) {
 void print_text(const Plan& plan, const PlannedPass& planned) {
   std::string constants;
   for (const auto& [name, value] : planned.pass.defines) constants += fmt::format(" -D {}={}", name, value);
-  fmt::print("// {}, compiled with{} and what device and run add, such as -D LANES=8\n{}", planned.label(), constants,
-             kernel_text(planned, Layouts(plan, Layout(1, 1))));
+  fmt::print("// {}: {}, compiled with{} and what device and run add, such as -D LANES=8\n{}", planned.label(),
+             planned.pass.kernel, constants, kernel_text(planned, Layouts(plan, Layout(1, 1))));
 }
 
 }  // namespace
@@ -44,6 +44,10 @@ void print_kernel(const std::string& label) {
     }
   }
   if (labels.empty()) find_technique(name);
+  if (label == name) {
+    for (const std::string& one : labels) fmt::print("{}\n", one);
+    return;
+  }
   throw UsageError("no kernel '{}'{}; {} has {}", label, suggestion(label, labels), name, enumerate(labels));
 }
 

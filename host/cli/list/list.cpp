@@ -147,12 +147,12 @@ void add_list(CLI::App& app) {
   add_text(*command, "name", flags->name, "NAME", "a technique: all about it");
   command->add_flag("--markdown", flags->markdown, "techniques as docs/techniques.md has them");
   add_text(*command, "--kernel", flags->kernel, "TECHNIQUE/PASS",
-           "instead: the text that the compiler gets for a pass, by its name in gloam plan")
+           "instead: the text that the compiler gets for a pass; or TECHNIQUE: the names of its passes")
       ->excludes(what);
   flags->json.add_to(*command);
   command->footer(
       "Examples:\n  gloam list techniques\n  gloam list techniques gtao\n  gloam list devices --json -\n"
-      "  gloam list --kernel gtao/estimate");
+      "  gloam list --kernel gtao\n  gloam list --kernel gtao/estimate");
   command->callback([flags] {
     if (!flags->kernel.empty()) return print_kernel(flags->kernel);
     if (flags->what.empty()) throw UsageError("list: what is listed is missing; {} can be", enumerate(listed));
