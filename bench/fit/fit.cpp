@@ -62,7 +62,7 @@ Plan plan_of_terms(const Variation& variation, const std::vector<std::string>& p
       filter.push_back(planned);
       continue;
     }
-    if (planned.pass.name == "estimate") {
+    if (planned.pass.writes.front().plane == "ao_raw") {
       planned.pass.defines.emplace_back("TERMS_ONLY", 1);
       for (int k = 0; k < fitted_terms; ++k) planned.pass.writes.push_back({term_name(k), term_name(k)});
     }

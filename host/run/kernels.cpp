@@ -22,7 +22,7 @@ std::string build_options(const PlannedPass& planned, const DeviceInfo& info, co
   if (options.math == Math::fast) text += " -D MATH_FAST=1";
   if (options.math == Math::precise && info.rounds_correctly) text += " -cl-fp32-correctly-rounded-divide-sqrt";
   if (options.real == Real::float64) text += " -D REAL_DOUBLE=1";
-  if (info.type == "gpu") text += " -D NATIVE_INVERSE_SQRT=1";
+  if (info.type == "gpu") text += " -D NATIVE_INVERSE=1";
   // Tests make quotients inexact, as they are on GPUs (docs/portability.md).
   if (const char* error = std::getenv("GLOAM_QUOTIENT_ERROR"); error && *error)
     text += fmt::format(" -D QUOTIENT_ERROR={}", std::atoi(error));

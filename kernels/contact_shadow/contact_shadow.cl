@@ -22,7 +22,7 @@ kernel void contact_shadow(ARGUMENTS) {
   const LightRay r = light_ray_at(frame, light, params.length, params.max_reach * (scalar)frame.width, depth, normal_x,
                                   normal_y, normal_z);
   SKIP_UNWANTED(frame, store(unshaded(r), contact, here))
-  real shift = noise_at(r.x, r.y, frame.seed).shift;
+  real shift = noise_at(r.x, (integer)(r.y), frame.seed).shift;
   // Behind its visible front an occluder reaches this far along the pixel's ray.
   const real along_ray = inverse_sqrt(1 + r.point.ray_x * r.point.ray_x + r.point.ray_y * r.point.ray_y);
   const real thickness = (scalar)params.thickness * r.length * along_ray;

@@ -16,6 +16,7 @@ static inline real raised(real horizon, real along, real above, mask counts) {
 // As `raised`, but a sample below the horizon lowers it by `share` of the difference in cosines (thickness heuristic,
 // section 5.2): thin occluders do not close everything behind them.
 static inline real raised_or_lowered(real horizon, real along, real above, scalar share, mask counts) {
+  MAY_FUSE
   const real point = along * quick_inverse(above);
   const real own = horizon * inverse_sqrt(multiply_add(horizon, horizon, (real)(1)));
   const real lower = point * inverse_sqrt(multiply_add(point, point, (real)(1)));

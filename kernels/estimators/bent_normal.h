@@ -70,17 +70,17 @@ static inline real cone_of(OpenDirections d) {
 #define STORE_NO_BENT_NORMAL
 #endif
 #if WITH_CONE
-#define STORE_CONE(d, r) store(choose((r).point.background, (real)(0), cone_of(d)), cone, (r).here);
+#define STORE_CONE(d, r) write_at(r, choose((r).point.background, (real)(0), cone_of(d)), cone);
 #define STORE_NO_CONE store((real)(0), cone, here);
 #else
 #define STORE_CONE(d, r)
 #define STORE_NO_CONE
 #endif
 #if WITH_LOBE
-#define SET_LOBE(d, r) set_lobe(&d, (r).here, roughness);
+#define SET_LOBE(d, r) set_lobe(&d, read_at(r, roughness));
 
-static inline void set_lobe(OpenDirections* d, int here, PLANE roughness) {
-  const real r = clamp(load(roughness, here), (real)(MIRROR_ROUGHNESS), (real)(1));
+static inline void set_lobe(OpenDirections* d, real roughness) {
+  const real r = clamp(roughness, (real)(MIRROR_ROUGHNESS), (real)(1));
   d->alpha = r * r;
   d->lobe_closed = d->lobe = (real)(0);
 }
@@ -94,14 +94,14 @@ static inline real open_lobe_of(OpenDirections d) {
 #endif
 #if WITH_SPECULAR_OCCLUSION_RAW
 #define STORE_OPEN_LOBE(d, r) \
-  store(choose((r).point.background, (real)(1), open_lobe_of(d)), specular_occlusion_raw, (r).here);
+  write_at(r, choose((r).point.background, (real)(1), open_lobe_of(d)), specular_occlusion_raw);
 #define STORE_NO_OPEN_LOBE store((real)(1), specular_occlusion_raw, here);
 #else
 #define STORE_OPEN_LOBE(d, r)
 #define STORE_NO_OPEN_LOBE
 #endif
 #if WITH_LOBE_WEIGHT
-#define STORE_LOBE_WEIGHT(d, r) store(choose((r).point.background, (real)(0), (d).lobe), lobe_weight, (r).here);
+#define STORE_LOBE_WEIGHT(d, r) write_at(r, choose((r).point.background, (real)(0), (d).lobe), lobe_weight);
 #define STORE_NO_LOBE_WEIGHT store((real)(0), lobe_weight, here);
 #else
 #define STORE_LOBE_WEIGHT(d, r)
@@ -117,9 +117,9 @@ static inline void store_bent_normal(OpenDirections d, Receiver r, PLANE_OUT x, 
   // Chosen, not multiplied by 0: a negative number times 0 is -0.
   const real3 nothing = make3((real)(0), (real)(0), (real)(0));
   const real3 bent = choose3(r.point.background, nothing, bent_normal_of(d, r.normal));
-  store(bent.x, x, r.here);
-  store(bent.y, y, r.here);
-  store(bent.z, z, r.here);
+  write_at(r, bent.x, x);
+  write_at(r, bent.y, y);
+  write_at(r, bent.z, z);
 }
 
 #endif

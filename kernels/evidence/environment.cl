@@ -13,17 +13,20 @@
 #include "evidence/expected_slices.h"
 
 static inline void store_light(real light, Receiver r, PLANE_OUT plane) {
-  store(choose(r.point.background, (real)(0), larger(light, (real)(0))), plane, r.here);
+  write_at(r, choose(r.point.background, (real)(0), larger(light, (real)(0))), plane);
 }
 
-// in : coefficients, environment_light, depth, normal; occluders, wanted, back_depth
-// out: environment_raw; ao_raw, bent_normal, cone
+#define STORE_OPEN                           \
+  store((real)(0), environment_raw_r, here); \
+  store((real)(0), environment_raw_g, here); \
+  store((real)(0), environment_raw_b, here); \
+  STORE_NO_AO_RAW STORE_NO_DIRECTIONS
+
+// in : coefficients, environment_light, depth, normal; occluders, wanted, back_depth, isolated
+// out: environment_raw; isolated, ao_raw, bent_normal, cone
 kernel void environment_estimate(ARGUMENTS) {
-  SKIP_UNWANTED(frame, store((real)(0), environment_raw_r, here); store((real)(0), environment_raw_g, here);
-                store((real)(0), environment_raw_b, here); STORE_NO_AO_RAW STORE_NO_DIRECTIONS)
+  RECEIVERS(r)
   const DepthLayers layers = LAYERS_FROM(frame, depth);
-  Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
-  leave_out(&r, is_wanted);
   OpenDirections directions = whole_hemisphere(r.normal);
   Sum mean = no_sum();
   coefficients += WITH_BACK_DEPTH * NUMBERS;
@@ -34,7 +37,7 @@ kernel void environment_estimate(ARGUMENTS) {
 #if WITH_BACK_DEPTH
     search.back = back_depth;
 #endif
-    search_around(frame, params, layers, search, coefficients, depth, normal_x, normal_y, normal_z, &mean, &directions);
+    search_around(frame, params, layers, search, coefficients, &mean, &directions);
 #if MISSING_LIGHT
     light = light_on_surface(environment_light, r.normal);
     light = make3(light.x - mean.missing.x, light.y - mean.missing.y, light.z - mean.missing.z);

@@ -57,7 +57,7 @@
   DO(5)                                                                                                              \
   DO(6) DO(7) DO(8) DO(9) DO(10) DO(11) DO(12) DO(13) DO(14) DO(15) DO(16) DO(17) DO(18) DO(19) DO(20) DO(21) DO(22) \
       DO(23) DO(24) DO(25) DO(26)
-#define STORE_TERM(k) store(choose(r.point.background, (real)(0), mean.terms[k]), term_##k, r.here);
+#define STORE_TERM(k) write_at(r, choose(r.point.background, (real)(0), mean.terms[k]), term_##k);
 #define STORE_OPEN
 #else
 #define STORE_OPEN                \
@@ -65,13 +65,11 @@
   STORE_NO_ERROR STORE_NO_DIRECTIONS
 #endif
 
-// in : coefficients, depth, normal; occluders, roughness, wanted, back_depth
-// out: ao_raw; bent_normal, cone, specular_occlusion_raw, lobe_weight, ao_error
+// in : coefficients, depth, normal; occluders, roughness, wanted, back_depth, isolated
+// out: ao_raw; isolated, bent_normal, cone, specular_occlusion_raw, lobe_weight, ao_error
 kernel void evidence_estimate(ARGUMENTS) {
-  SKIP_UNWANTED(frame, STORE_OPEN)
+  RECEIVERS(r)
   const DepthLayers layers = LAYERS_FROM(frame, depth);
-  Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);
-  leave_out(&r, is_wanted);
   OpenDirections directions = whole_hemisphere(r.normal);
   SET_LOBE(directions, r)
   Sum mean = no_sum();
@@ -81,7 +79,7 @@ kernel void evidence_estimate(ARGUMENTS) {
 #if WITH_BACK_DEPTH
     search.back = back_depth;
 #endif
-    search_around(frame, params, layers, search, coefficients, depth, normal_x, normal_y, normal_z, &mean, &directions);
+    search_around(frame, params, layers, search, coefficients, &mean, &directions);
   }
 #if TERMS_ONLY
   FOR_TERMS(STORE_TERM)
@@ -91,7 +89,7 @@ kernel void evidence_estimate(ARGUMENTS) {
 #if WITH_AO_ERROR
   // Of what no slice shows, the same everywhere.
   const real error = mean.error + coefficients[3 * TERMS + 2];
-  store(choose(r.point.background, (real)(0), smaller(larger(error, (real)(0)), (real)(1))), ao_error, r.here);
+  write_at(r, choose(r.point.background, (real)(0), smaller(larger(error, (real)(0)), (real)(1))), ao_error);
 #endif
   STORE_OPEN_DIRECTIONS(directions, r)
 #endif

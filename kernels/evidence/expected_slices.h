@@ -24,6 +24,14 @@
 #ifndef WITH_BACK_DEPTH
 #define WITH_BACK_DEPTH 0
 #endif
+
+// Pixels that no filter averages get EDGE_FACTOR times as many slices: the pass over the image lists them, and another one computes
+// them anew. (In the pass over the image, all lanes or a whole warp would wait for one such pixel.)
+#if LISTED
+#define ROUNDS EDGE_FACTOR
+#else
+#define ROUNDS 1
+#endif
 #define TABLE_PARAMETERS TABLE coefficients,
 #define TABLES coefficients,
 
@@ -48,6 +56,31 @@ static inline Search search_of(Params params, Receiver r) {
   search.back = 0;
   return search;
 }
+
+// A kernel's first line: the work-item's receivers, as `r`. Where STORE_OPEN holds for all of them, or none is left in the list, the
+// kernel ends. Without LISTED it lists the pixels that no filter averages.
+#if LISTED
+#define RECEIVERS(r)                                          \
+  integer pixels;                                             \
+  if (!pixels_of_item(isolated, frame, &pixels)) return;      \
+  const Receiver r = receiver_at_index(frame, params.radius, params.max_reach, pixels, depth, normal_x, normal_y, normal_z);
+#else
+#if EDGE_FACTOR > 1
+#define LIST_ISOLATED(r)                                                                                          \
+  if (ANY(!r.point.background))                                                                                   \
+    append_pixels(isolated, r.here,                                                                               \
+                  !r.point.background & to_mask(r.x < frame.width) &                                              \
+                      is_isolated(frame, FIRST_X, ROW_Y, choose(r.point.background, (real)(1), r.depth), r.normal, \
+                                  params.radius, depth, normal_x, normal_y, normal_z));
+#else
+#define LIST_ISOLATED(r)
+#endif
+#define RECEIVERS(r)                                                                                           \
+  SKIP_UNWANTED(frame, STORE_OPEN)                                                                             \
+  Receiver r = receiver_at(frame, params.radius, params.max_reach, depth, normal_x, normal_y, normal_z);       \
+  leave_out(&r, is_wanted);                                                                                    \
+  LIST_ISOLATED(r)
+#endif
 
 // What closes one side of a slice.
 typedef struct {
@@ -214,6 +247,7 @@ static inline real share_covered(const Side* s, natural covered) {
 
 static inline __attribute__((always_inline)) void add_side(Slice slice, const Side* s, Closed closed,
                                                            Evidence* evidence) {
+  MAY_FUSE
   const scalar per_sample = (scalar)(0.5f / STEPS);
   if (ANY(closed.lowest < 2)) {
     evidence->below_horizon += share_below_lowest(slice, s, closed.lowest);
@@ -357,6 +391,7 @@ static inline Sum no_sum(void) {
 static inline __attribute__((always_inline)) void add_slice(Frame frame, Params params, DepthLayers layers,
                                                             Search search, TABLE coefficients, real turn, int within,
                                                             real weight, Sum* sum, OpenDirections* directions) {
+  MAY_FUSE
   real cosine, sine;
   const real density = weight * draw_slice(search.receiver.point, search.surface, turn, &cosine, &sine);
   const Slice slice = slice_at(search.receiver.point, search.surface, cosine, sine);
@@ -406,47 +441,33 @@ static inline __attribute__((always_inline)) void add_slice(Frame frame, Params 
 #endif
 }
 
-// The mean over DIRECTIONS slices, and where `is_isolated` over EDGE_FACTOR times as many. Returns the closed share.
+// The mean over SLICES slices. Returns the closed share.
 static inline __attribute__((always_inline)) real mean_of_slices(Frame frame, Params params, DepthLayers layers,
-                                                                 Search search, TABLE coefficients, mask is_isolated,
-                                                                 int within, Sum* sum, OpenDirections* directions) {
+                                                                 Search search, TABLE coefficients, int within,
+                                                                 Sum* sum, OpenDirections* directions) {
   const Noise noise = search.receiver.noise;
-  const real share =
-      choose(is_isolated, (real)((scalar)1 / (EDGE_FACTOR * DIRECTIONS)), (real)((scalar)1 / DIRECTIONS));
-  const int rounds = EDGE_FACTOR > 1 && ANY(is_isolated) ? EDGE_FACTOR : 1;
-  for (int k = 0; k < rounds; ++k) {
+  for (int k = 0; k < ROUNDS; ++k) {
     // Slices of further rounds lie between those of the first, and so do their samples.
     const scalar between = (scalar)k * (scalar)(1.0f / EDGE_FACTOR);
     const real shift = noise.shift + between, turn = noise.turn + between;
     search.receiver.noise.shift = choose(shift >= 1, shift - 1, shift);
     const real first = choose(turn >= 1, turn - 1, turn);
-    const real weight = k == 0 ? share : choose(is_isolated, share, (real)(0));
     for (int d = 0; d < DIRECTIONS; ++d)
-      add_slice(frame, params, layers, search, coefficients, (scalar)d + first, within, weight, sum, directions);
+      add_slice(frame, params, layers, search, coefficients, (scalar)d + first, within,
+                (real)((scalar)1 / (ROUNDS * DIRECTIONS)), sum, directions);
   }
   return sum->closed;
 }
 
-// All slices of a row of pixels that is not background alone. (Not `restrict`: oclgrind does not know what Clang makes of it in an inlined
-// function.)
+// All slices of pixels that are not background alone.
 static inline __attribute__((always_inline)) void search_around(Frame frame, Params params, DepthLayers layers,
-                                                                Search search, TABLE coefficients, global const float* depth,
-                                                                global const float* normal_x,
-                                                                global const float* normal_y,
-                                                                global const float* normal_z, Sum* sum,
+                                                                Search search, TABLE coefficients, Sum* sum,
                                                                 OpenDirections* directions) {
   const Receiver r = search.receiver;
-#if EDGE_FACTOR > 1
-  const mask isolated =
-      (!r.point.background) & is_isolated(frame, FIRST_X, ROW_Y, choose(r.point.background, (real)(1), r.depth),
-                                          r.normal, params.radius, depth, normal_x, normal_y, normal_z);
-#else
-  const mask isolated = (mask)(0);
-#endif
   // A slice that is not parallel to the image plane reaches further on the screen than the radius at the pixel's depth.
   const Reach widest = longer(r.reach, search.surface.length);
   LOOK_AROUND(sum->closed, frame, r, widest,
-              mean_of_slices(frame, params, layers, search, coefficients, isolated, within, sum, directions))
+              mean_of_slices(frame, params, layers, search, coefficients, within, sum, directions))
 }
 
 #endif

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "base/files.h"
 #include "evidence/coefficients.h"
 #include "gloam/error.h"
@@ -93,6 +95,24 @@ Pass error_filter() {
 
 Pass mono_pass(const ParameterValues& values, const std::string& occluders) {
   return estimate_of(values.as<EvidenceParams>(), occluders, values.as<EvidenceEdgeParams>().edge_factor);
+}
+
+/// Has the estimate list the pixels that no filter averages, and adds a pass that computes these from more slices.
+Technique with_slices_at_edges(Technique t) {
+  t.passes = [without = t.passes](const ParameterValues& values) {
+    std::vector<Pass> passes = without(values);
+    const auto estimate = std::find_if(passes.begin(), passes.end(), [](const Pass& p) { return p.name == "estimate"; });
+    if (values.as<EvidenceEdgeParams>().edge_factor == 1) return passes;
+    Pass isolated = *estimate;
+    isolated.name = "isolated";
+    isolated.reads.push_back("isolated");
+    isolated.defines.emplace_back("LISTED", 1);
+    isolated.can_skip = false;
+    estimate->writes.push_back(starts_empty("isolated"));
+    passes.insert(estimate + 1, std::move(isolated));
+    return passes;
+  };
+  return t;
 }
 
 std::vector<Pass> over_depth(const ParameterValues& values) { return {mono_pass(values, "depth"), error_filter()}; }
@@ -213,8 +233,11 @@ Technique environment_of_layers() {
 }  // namespace
 
 std::vector<Technique> evidence() {
-  return {evidence_over_depth(),    evidence_over_layers(), evidence_over_stochastic_depth(),
-          evidence_over_two_eyes(), environment(),          environment_of_layers()};
+  std::vector<Technique> one_eye = {evidence_over_depth(), evidence_over_layers(), evidence_over_stochastic_depth(),
+                                    environment(), environment_of_layers()};
+  std::vector<Technique> all = {evidence_over_two_eyes()};
+  for (Technique& t : one_eye) all.push_back(with_slices_at_edges(std::move(t)));
+  return all;
 }
 
 }  // namespace gloam::techniques

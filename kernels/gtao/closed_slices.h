@@ -86,6 +86,7 @@ static inline Side side_of(Slice slice, Search search, scalar sign) {
 // `source`: what the point sends, as follow (light.h) has it.
 static inline void take_point(Closed* closed, Side* side, Params params, Search search, real along, real above,
                               real square, mask in_frame, integer source) {
+  MAY_FUSE
   const mask counts = in_frame & (square < search.radius_square) & (above > side->sample.least);
 #if BITMASK
   // An occluder that reaches down to the tangent only raises the horizon, which is cheap; few float above it.
@@ -216,11 +217,12 @@ static inline void add_light_of_side(real3* light, real importance, Search searc
 static inline __attribute__((always_inline)) real open_share(Frame frame, Params params, DepthLayers layers,
                                                              Search search, int within, OpenDirections* directions,
                                                              real3* light) {
+  MAY_FUSE
   const Receiver r = search.receiver;
   real all_closed = 0;
   *light = make3((real)(0), (real)(0), (real)(0));
 #if LIGHT
-  const real ray_shift = shift_of_rays(to_natural(r.x), (natural)((uint)r.y), frame.seed);
+  const real ray_shift = shift_of_rays(to_natural(r.x), to_natural(r.y), frame.seed);
 #endif
   for (int d = 0; d < DIRECTIONS; ++d) {
     real cosine, sine;

@@ -31,7 +31,7 @@ kernel void ssr_rays(ARGUMENTS) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const Reflector s = reflector_of(frame, params, here, depth, normal_x, normal_y, normal_z, roughness, reflectance_r,
                                    reflectance_g, reflectance_b);
-  const Noise noise = noise_at(FIRST_X + IOTA, ROW_Y, frame.seed);
+  const Noise noise = noise_at(FIRST_X + IOTA, (integer)(ROW_Y), frame.seed);
 #if MASKED
   const mask is_wanted = wanted_in_row(wanted, frame);
 #else

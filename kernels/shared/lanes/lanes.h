@@ -5,8 +5,14 @@
 #ifndef GLOAM_LANES_H
 #define GLOAM_LANES_H
 
-// Off in every mode: contraction would now and then move a sample to a neighbouring pixel.
+// A function that begins with MAY_FUSE may, in fast mode, round a product and the sum that it goes into once (contraction), where the
+// device has an instruction for that. Elsewhere contraction is off: it would now and then move a sample to a neighbouring pixel.
 #pragma OPENCL FP_CONTRACT OFF
+#if defined(MATH_FAST) && !defined(REAL_DOUBLE)
+#define MAY_FUSE _Pragma("OPENCL FP_CONTRACT ON")
+#else
+#define MAY_FUSE
+#endif
 
 #define JOIN_(a, b) a##b
 #define JOIN(a, b) JOIN_(a, b)

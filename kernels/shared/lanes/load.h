@@ -171,8 +171,13 @@ static inline integer index_near(Frame f, integer dx, integer dy) { return dy * 
 
 // As index_near, where |dy| and the pitch are below SHORT_PITCH: on AVX-512 a 16-bit product takes half as long as a 32-bit one.
 #define SHORT_PITCH 32768
-static inline integer index_near_short(Frame f, integer dx, integer dy) {
 #if LANES == 16 && defined(__AVX512BW__)
+#define HAS_SHORT_PRODUCT 1
+#else
+#define HAS_SHORT_PRODUCT 0
+#endif
+static inline integer index_near_short(Frame f, integer dx, integer dy) {
+#if HAS_SHORT_PRODUCT
   typedef short Pairs __attribute__((vector_size(64)));
   // Products of the lower and of the upper half of each lane, added; the upper half of the pitch is 0.
   const integer rows =

@@ -28,13 +28,10 @@ static inline integer nearest(real x) {
 #endif
 }
 
-// a * b + c, for what does not decide which pixel is read. Fast: rounded once where the device does that at full speed.
+// a * b + c, for what does not decide which pixel is read.
 static inline real multiply_add(real a, real b, real c) {
-#if defined(MATH_FAST) && (defined(FP_FAST_FMAF) || defined(__FMA__)) && !defined(REAL_DOUBLE)
-  return fma(a, b, c);
-#else
+  MAY_FUSE
   return a * b + c;
-#endif
 }
 
 // Radiance that sums can hold: negative values and NaN count as 0.
@@ -43,13 +40,13 @@ static inline real kept_radiance(real color) { return smaller(larger(color, (rea
 static inline real fused_dot3(real3 a, real3 b) { return multiply_add(a.x, b.x, multiply_add(a.y, b.y, a.z * b.z)); }
 
 // 2 / sqrt(x) for x > 0; the factor 2 saves the fast mode a multiplication. Fast: one lane uses the device's own, and so do several on
-// a GPU, which has an instruction for it (NATIVE_INVERSE_SQRT). Several lanes of a CPU refine a guess by Newton steps: the CPU's guess
+// a GPU, which has instructions for inverses (NATIVE_INVERSE). Several lanes of a CPU refine a guess by Newton steps: the CPU's guess
 // (12 or 14 bits) by one step, relative error below 5e-7; or a guess from exponent arithmetic by a tuned and a plain step (Lomont 2003;
 // constants of Kadlec 2010), relative error below 7e-7.
 static inline real twice_inverse_sqrt(real x) {
 #if !defined(MATH_FAST) || defined(REAL_DOUBLE)
   return quotient((real)(2), sqrt(x));
-#elif LANES == 1 || defined(NATIVE_INVERSE_SQRT)
+#elif LANES == 1 || defined(NATIVE_INVERSE)
   return 2 * native_rsqrt(x);
 #else
 #ifdef X86_INVERSE_SQRT
@@ -76,7 +73,9 @@ static inline real inverse_sqrt(real x) { return (scalar)0.5 * twice_inverse_sqr
 
 // 1 / x for x > 0. Fast: relative error below 2e-7.
 static inline real quick_inverse(real x) {
-#if defined(MATH_FAST) && defined(X86_INVERSE) && !defined(REAL_DOUBLE)
+#if defined(MATH_FAST) && defined(NATIVE_INVERSE) && !defined(REAL_DOUBLE)
+  return native_recip(x);
+#elif defined(MATH_FAST) && defined(X86_INVERSE) && !defined(REAL_DOUBLE)
   const real y = X86_INVERSE(x);
   return y * multiply_add(-x, y, (real)(2));
 #else

@@ -25,14 +25,16 @@ PARAMS(StochasticParams, STOCHASTIC_PARAMS)
 
 #ifdef __OPENCL_C_VERSION__
 #include "shared/frame/camera.h"
+#include "shared/lanes/pixel_list.h"
 #include "shared/lanes/wanted.h"
 #include "shared/sampling/layers.h"
 #include "shared/sampling/sample.h"
 
-// The points of the row of pixels that a work-item computes.
+// The points of the pixels that a work-item computes: a row of the image, or with LISTED any (pixel_list.h).
 typedef struct {
-  integer x;
-  int y, here;
+  integer x, y;
+  int here;
+  integer own;  // index of each pixel from `here`
   real depth;
   real3 normal;
   Anchor point;
@@ -92,6 +94,11 @@ static inline Receiver receiver_of(Frame frame, scalar radius, scalar max_reach,
   return r;
 }
 
+#ifndef LISTED
+#define LISTED 0
+#endif
+
+// The receivers of a row.
 static inline Receiver receiver_at(Frame frame, scalar radius, scalar max_reach, PLANE depth, PLANE normal_x,
                                    PLANE normal_y, PLANE normal_z) {
   const int y = ROW_Y, here = index_of(frame, FIRST_X, y);
@@ -100,15 +107,48 @@ static inline Receiver receiver_at(Frame frame, scalar radius, scalar max_reach,
   Receiver r = receiver_of(frame, radius, max_reach, to_real(x), (real)(y), depth_seen(load(depth, here), &by_both),
                            load3(normal_x, normal_y, normal_z, here));
   r.x = x;
-  r.y = y;
+  r.y = (integer)(y);
   r.here = here;
+  r.own = IOTA;
+  r.noise = noise_at(x, r.y, frame.seed);
+  return r;
+}
+
+// Receivers at one pixel per lane, by its index from the plane's start.
+static inline Receiver receiver_at_index(Frame frame, scalar radius, scalar max_reach, integer index, PLANE depth,
+                                         PLANE normal_x, PLANE normal_y, PLANE normal_z) {
+  const integer x = column_of(frame, index), y = row_of(frame, index);
+  mask by_both;
+  Receiver r = receiver_of(frame, radius, max_reach, to_real(x), to_real(y), depth_seen(gather(depth, index), &by_both),
+                           gather3(normal_x, normal_y, normal_z, index));
+  r.x = x;
+  r.y = y;
+  r.here = 0;
+  r.own = index;
   r.noise = noise_at(x, y, frame.seed);
   return r;
 }
 
+// Reads and writes a plane at the receivers' own pixels.
+static inline real read_at(Receiver r, PLANE plane) {
+#if LISTED
+  return gather(plane, r.own);
+#else
+  return load(plane, r.here);
+#endif
+}
+
+static inline void write_at(Receiver r, real value, PLANE_OUT plane) {
+#if LISTED
+  scatter(value, plane, r.own);
+#else
+  store(value, plane, r.here);
+#endif
+}
+
 // RESULT = CALL, with `within` set to what holds for all samples up to `widest` (sample.h).
 #define LOOK_AROUND(RESULT, frame, receiver, widest, CALL)           \
-  if ((frame).pitch >= SHORT_PITCH) {                                \
+  if (HAS_SHORT_PRODUCT && (frame).pitch >= SHORT_PITCH) {           \
     const int within = SAMPLES_IN_WIDE_FRAME;                        \
     RESULT = CALL;                                                   \
   } else if (reaches_only_inside(frame, (receiver).point, widest)) { \
@@ -125,7 +165,7 @@ static inline void leave_out(Receiver* r, mask is_wanted) { r->point.background 
 // Stores AO: clamped to 0 to 1, and 1 on background.
 static inline void store_open(real open, Receiver r, PLANE_OUT ao) {
   const real kept = smaller(larger(open, (real)(0)), (real)(1));
-  store(choose(r.point.background, (real)(1), kept), ao, r.here);
+  write_at(r, choose(r.point.background, (real)(1), kept), ao);
 }
 
 // Of kernels that make AO beside something else, for those that ask for it (WITH_AO_RAW).

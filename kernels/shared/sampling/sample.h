@@ -28,7 +28,7 @@ static inline Noise noise_of(natural column, natural row, int seed) {
   return n;
 }
 
-static inline Noise noise_at(integer x, int y, int seed) { return noise_of(to_natural(x), (natural)((uint)y), seed); }
+static inline Noise noise_at(integer x, integer y, int seed) { return noise_of(to_natural(x), to_natural(y), seed); }
 
 // Turns by the golden angle, the step between points of a Fibonacci spiral.
 static inline void turn_golden(scalar* cosine, scalar* sine) {
@@ -79,7 +79,7 @@ static inline int reaches_only_inside(Frame f, Anchor a, Reach r) {
 
 // Clamps an offset in pixels from each lane's (x, y) to the frame. Returns which samples count: all, or with OUTSIDE_OPEN only
 // those that were within the frame. `within`: one of the constants above.
-static inline mask keep_in_frame(Frame f, integer x, int y, int within, integer* dx, integer* dy) {
+static inline mask keep_in_frame(Frame f, integer x, integer y, int within, integer* dx, integer* dy) {
   if (within == SAMPLES_INSIDE) return EVERY_LANE;
   const integer kept_x = min(max(*dx, -x), f.width - 1 - x), kept_y = min(max(*dy, -y), f.height - 1 - y);
 #if OUTSIDE_OPEN

@@ -69,14 +69,20 @@ static inline real share_of_side(real cosine, real sine, real mass) {
   return mass_below(-sine, cosine * cosine, cosine, sine) * ((scalar)0.5 * quick_inverse(mass));
 }
 
+// The y component of a slice's tangent, which decides where it samples.
+static inline real tangent_y_of(Anchor a, Surface s, real inverse_level, real cosine, real sine) {
+  return (cosine * a.ray_x * a.ray_y + sine * s.length) * inverse_level;
+}
+
 // `cosine`, `sine`: of the slice's angle about the line to the eye.
 static inline Slice slice_at(Anchor a, Surface s, real cosine, real sine) {
+  MAY_FUSE
   Slice c;
   const real inverse_level = quotient((real)(1), s.level);
   // The slice's tangent at right angles to the line to the eye, moved along that line into the plane of the pixel's depth: the
   // image's x and y axes turned about the line to the eye, written out.
   const real x = cosine * s.level;
-  const real y = (cosine * a.ray_x * a.ray_y + sine * s.length) * inverse_level;
+  const real y = tangent_y_of(a, s, inverse_level, cosine, sine);
   c.screen_x = x;
   c.screen_y = -y;
   // The distance that it was moved.

@@ -23,7 +23,7 @@ static inline real distance_of_step(int k, Noise noise) {
 typedef struct {
   real along, above;  // if it had the pixel's depth (slice.h); units of the pixel's depth
   real least;         // height above the tangent above which an occluder counts
-  integer place;      // index from the pixel's own
+  integer place;      // index from Receiver::here
   mask in_frame;
 } SliceSample;
 
@@ -47,23 +47,26 @@ static inline __attribute__((always_inline)) void point_in_slice(Frame frame, Sl
 static inline __attribute__((always_inline)) void samples_of_step(Frame frame, scalar bias, Receiver r, Slice slice,
                                                                   int within, int k, SliceSample* right,
                                                                   SliceSample* left) {
+  MAY_FUSE
   const real t = distance_of_step(k, r.noise);
   integer dx = nearest(slice.screen_x * r.reach.pixels_x * t), dy = nearest(slice.screen_y * r.reach.pixels_y * t);
-  integer other_dx = -dx, other_dy = -dy;
   // From the unclamped position: at the border `along` may shrink to rounding.
   right->least = left->least = bias * (to_real(dx) * slice.along_x + to_real(dy) * slice.along_y);
+  integer other_dx = -dx, other_dy = -dy;
   right->in_frame = left->in_frame = keep_in_frame(frame, r.x, r.y, within, &dx, &dy);
   right->along = to_real(dx) * slice.along_x + to_real(dy) * slice.along_y;
   right->above = to_real(dx) * slice.above_x + to_real(dy) * slice.above_y;
+  const integer offset = index_within(frame, within, dx - IOTA, dy);
+  right->place = r.own + offset;
   left->along = right->along;
   left->above = -right->above;
+  left->place = r.own - offset;
   if (within != SAMPLES_INSIDE) {
     left->in_frame = keep_in_frame(frame, r.x, r.y, within, &other_dx, &other_dy);
     left->along = -(to_real(other_dx) * slice.along_x + to_real(other_dy) * slice.along_y);
     left->above = to_real(other_dx) * slice.above_x + to_real(other_dy) * slice.above_y;
+    left->place = r.own + index_within(frame, within, other_dx - IOTA, other_dy);
   }
-  right->place = index_within(frame, within, dx, dy);
-  left->place = index_within(frame, within, other_dx, other_dy);
 }
 
 #endif

@@ -3,22 +3,11 @@
 #ifndef GLOAM_STEREO_ESTIMATE_H
 #define GLOAM_STEREO_ESTIMATE_H
 
-#include "shared/lanes/pixel_list.h"
 #include "shared/sampling/ambient_occlusion.h"
 #include "shared/stereo/half_occlusion.h"
 
 static inline real3 position_of(Frame f, Receiver r) {
   return position_at(f, r.point.x, r.point.y, choose(r.point.background, (real)(1), r.depth));
-}
-
-// Receivers at one pixel per lane, by its index from the plane's start. `depth`: with the sign of visibility.h.
-static inline Receiver receiver_at_index(Frame frame, scalar radius, scalar max_reach, integer index, PLANE depth,
-                                         PLANE normal_x, PLANE normal_y, PLANE normal_z) {
-  const integer x = column_of(frame, index), y = row_of(frame, index);
-  Receiver r = receiver_of(frame, radius, max_reach, to_real(x), to_real(y), fabs(gather(depth, index)),
-                           gather3(normal_x, normal_y, normal_z, index));
-  r.noise = noise_of(to_natural(x), to_natural(y), frame.seed);
-  return r;
 }
 
 // MAY_DIFFER: lanes for which the other eye is used (half_occlusion.h).
