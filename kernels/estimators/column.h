@@ -12,7 +12,7 @@ typedef struct {
 } Column;
 
 // The part of a column above the tangent plane. `middle`: height of its middle; `half_rise`: from there to the sphere.
-static inline Column column_of(real middle, real half_rise) {
+static inline Column part_above(real middle, real half_rise) {
   Column c;
   c.low = larger(middle - half_rise, (real)(0));
   c.high = larger(middle + half_rise, (real)(0));

@@ -69,9 +69,9 @@ static inline Search search_of(Params params, Receiver r) {
 #define LIST_ISOLATED(r)                                                                                          \
   if (ANY(!r.point.background))                                                                                   \
     append_pixels(isolated, r.here,                                                                               \
-                  !r.point.background & to_mask(r.x < frame.width) &                                              \
-                      is_isolated(frame, FIRST_X, ROW_Y, choose(r.point.background, (real)(1), r.depth), r.normal, \
-                                  params.radius, depth, normal_x, normal_y, normal_z));
+                  is_isolated(frame, FIRST_X, ROW_Y, !r.point.background & to_mask(r.x < frame.width),            \
+                              choose(r.point.background, (real)(1), r.depth), r.normal, params.radius, depth,      \
+                              normal_x, normal_y, normal_z));
 #else
 #define LIST_ISOLATED(r)
 #endif
@@ -140,10 +140,14 @@ static inline __attribute__((always_inline)) void take_occluder(const Side* s, S
   closed->lowest = choose(counts, smaller(twice_cosine, closed->lowest), closed->lowest);
   const real high = smaller(quick_sectors_below(twice_cosine, s->scale), (real)(MOST_SECTORS));
   const real along = multiply_add(s->sine, thickness, p.along), above = multiply_add(-s->cosine, thickness, p.above);
-  const real square = multiply_add(along, along, multiply_add(above, above, (real)(1e-30f)));
-  const real back = quick_sectors_below(along * quick_twice_inverse_sqrt(square), s->scale);
   // A back below the tangent closes everything below the front.
-  const real low = choose(above > 0, smaller(back, high), (real)(0));
+  real low = (real)(0);
+  const mask floats = counts & (above > 0);
+  if (ANY(floats)) {
+    const real square = multiply_add(along, along, multiply_add(above, above, (real)(1e-30f)));
+    const real back = quick_sectors_below(along * quick_twice_inverse_sqrt(square), s->scale);
+    low = choose(floats, smaller(back, high), low);
+  }
   closed->covered |= sectors_between(low, high) & bits_of(counts);
 }
 
@@ -178,7 +182,7 @@ static inline __attribute__((always_inline)) void look(Frame frame, Params param
   return;
 #endif
   mask by_both;
-  real e = relative_depth(r.point, r.depth, depth_seen(gather(layers.first + here, place), &by_both));
+  real e = any_relative_depth(r.point, r.depth, depth_seen(gather(layers.first + here, place), &by_both));
   extend_run(&s->run, e, s->sample.along, search.radius);
   SlicePoint p;
   point_in_slice(frame, s->sample, s->slope, s->above_e, e, &p);
@@ -188,8 +192,8 @@ static inline __attribute__((always_inline)) void look(Frame frame, Params param
 #if !SURE_BIAS
   hides &= p.above > LEAST_SLOPE_OF_UNKNOWN * s->sample.along;
 #endif
-  s->unknown += choose(hides, (real)(1), (real)(0));
-  s->others += choose(has_left_receiver(&s->run), (real)(1), (real)(0));
+  s->unknown = choose(hides, s->unknown + 1, s->unknown);
+  s->others = choose(has_left_receiver(&s->run), s->others + 1, s->others);
   const real extent = s->run.extent * s->cosine;
 #if STEREO
   by_both &= is_shared;
@@ -278,21 +282,30 @@ static inline void terms_of(Evidence e, real facing, real* t) {
 // Of w, v, e and g.
 #define NUMBERS (3 * TERMS + 4)
 
-static inline real sum_of_terms(const real* t, constant float* weights) {
-  real sum = (real)(0);
+// Fast: factored, for fewer products.
+static inline real sum_of_terms(Evidence e, real facing, constant float* weights) {
+#ifdef MATH_FAST
+  MAY_FUSE
+  const real a = e.below_horizon, b = e.within_thickness, u = e.unknown;
+  const real of_a = weights[0] + facing * weights[9] + u * weights[6] + b * weights[4] + a * weights[3];
+  const real of_b = weights[1] + facing * weights[10] + u * weights[7] + b * weights[5];
+  const real of_u = weights[2] + facing * weights[11] + u * weights[8];
+  return u * of_u + b * of_b + a * of_a;
+#else
+  real t[TERMS], sum = (real)(0);
+  terms_of(e, facing, t);
 #pragma unroll
   for (int k = 0; k < TERMS; ++k) sum = multiply_add(t[k], (real)(weights[k]), sum);
   return sum;
+#endif
 }
 
 // Expected closed share of a slice. Most rows of pixels lie on open surfaces, and show nothing of all this.
 static inline __attribute__((always_inline)) real closed_share(Evidence e, real facing, TABLE coefficients) {
   real closed = (real)(0);
   if (ANY((e.below_horizon > 0) | (e.unknown > 0))) {
-    real t[TERMS];
-    terms_of(e, facing, t);
-    closed = sum_of_terms(t, coefficients);
-    if (ANY(e.others > 0)) closed = multiply_add(e.others, sum_of_terms(t, coefficients + TERMS), closed);
+    closed = sum_of_terms(e, facing, coefficients);
+    if (ANY(e.others > 0)) closed = multiply_add(e.others, sum_of_terms(e, facing, coefficients + TERMS), closed);
   }
   return closed;
 }
@@ -328,10 +341,8 @@ static inline real error_of_outside(real outside, TABLE coefficients) {
 // Without the constant, and without what lies outside.
 static inline real expected_error(Evidence e, real facing, TABLE coefficients) {
   constant float* weights = coefficients + 2 * TERMS;
-  real t[TERMS];
-  terms_of(e, facing, t);
   const real roots = sqrt(larger(e.below_horizon, (real)(0))) * weights[TERMS] + sqrt(e.unknown) * weights[TERMS + 1];
-  return roots + sum_of_terms(t, weights);
+  return roots + sum_of_terms(e, facing, weights);
 }
 
 #if WITH_DEGREES

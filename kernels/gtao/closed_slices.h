@@ -47,7 +47,7 @@ static inline Search search_of(Params params, Receiver r) {
 
 // The closed part of one side of a slice.
 typedef struct {
-  real horizon;     // of occluders that reach down to the tangent (arc.h)
+  Horizon horizon;  // of occluders that reach down to the tangent (arc.h)
   natural covered;  // sectors of the other occluders (sectors.h)
 } Closed;
 
@@ -74,7 +74,7 @@ static inline Side side_of(Slice slice, Search search, scalar sign) {
   s.deeper_along = sign * slice.sine * search.thickness;
   s.deeper_above = -slice.cosine * search.thickness;
   s.scale = scale_of(slice.cosine, sign * slice.sine, slice.mass, search.receiver.noise.shift);
-  s.closed.horizon = (real)(NO_HORIZON);
+  s.closed.horizon = no_horizon();
   s.closed.covered = (natural)(0u);
   s.closed_by_depth = s.closed;
 #if STEREO
@@ -92,7 +92,7 @@ static inline void take_point(Closed* closed, Side* side, Params params, Search 
   // An occluder that reaches down to the tangent only raises the horizon, which is cheap; few float above it.
   const real back = above + side->deeper_above;
   const mask floats = counts & (back > 0);
-  closed->horizon = raised(closed->horizon, along, above, counts & (back <= 0));
+  raise(&closed->horizon, along, above, counts & (back <= 0));
   if (ANY(floats)) {
     const real low = sectors_below(along + side->deeper_along, back, side->scale);
     const natural covered = sectors_between(low, sectors_below(along, above, side->scale));
@@ -110,9 +110,9 @@ static inline void take_point(Closed* closed, Side* side, Params params, Search 
   height *= smaller((1 - square * search.receiver.reach.inverse_square) / params.fade, (real)(1));
 #endif
 #if THICKNESS_HEURISTIC
-  closed->horizon = raised_or_lowered(closed->horizon, along, height, params.thickness_heuristic, counts);
+  raise_or_lower(&closed->horizon, along, height, params.thickness_heuristic, counts);
 #else
-  closed->horizon = raised(closed->horizon, along, height, counts);
+  raise(&closed->horizon, along, height, counts);
 #endif
 #endif
 }
@@ -120,7 +120,7 @@ static inline void take_point(Closed* closed, Side* side, Params params, Search 
 // Takes the occluder at a side's offset and this depth. Returns where further layers are needed.
 static inline __attribute__((always_inline)) mask take_depth(Frame frame, Params params, Search search, Side* side,
                                                              real depth, mask counts, integer source, Closed* closed) {
-  const real e = relative_depth(search.receiver.point, search.receiver.depth, depth);
+  const real e = any_relative_depth(search.receiver.point, search.receiver.depth, depth);
   SlicePoint p;
   point_in_slice(frame, side->sample, side->slope, side->above_e, e, &p);
   take_point(closed, side, params, search, p.along, p.above, p.square, counts, source);
@@ -133,7 +133,7 @@ static inline __attribute__((always_inline)) void look(Frame frame, Params param
                                                        Side* side) {
   const Receiver r = search.receiver;
 #if GATHERS_ONLY
-  side->closed.horizon = smaller(side->closed.horizon, sum_of_depths(layers, frame, here, place, r.farthest));
+  side->closed.horizon.along = smaller(side->closed.horizon.along, sum_of_depths(layers, frame, here, place, r.farthest));
   return;
 #endif
   mask by_both;
@@ -165,10 +165,10 @@ typedef real Taken;
 // `sine`: of the normal's lean towards this side. The horizon is turned into sectors.
 static inline Taken taken_of(Slice slice, real sine, Scale scale, Closed* closed) {
 #if BITMASK
-  closed->covered |= sectors_between((real)(0), sectors_below_horizon(closed->horizon, scale));
+  closed->covered |= sectors_between((real)(0), sectors_below_horizon(cotangent_of(closed->horizon), scale));
   return closed->covered;
 #else
-  return share_below(closed->horizon, slice.cosine, sine, slice.mass);
+  return share_below(cotangent_of(closed->horizon), slice.cosine, sine, slice.mass);
 #endif
 }
 
@@ -195,7 +195,7 @@ static inline real closed_towards(const Side* side, real along, real up) {
   const natural sector = to_natural(to_integer(sectors_below(along, larger(up, (real)(0)), side->scale)));
   const mask is_closed = to_mask(((side->closed.covered >> sector) & 1u) != 0u);
 #else
-  const mask is_closed = along > side->closed.horizon * up;
+  const mask is_closed = along * side->closed.horizon.above > side->closed.horizon.along * up;
 #endif
   return choose(is_closed, (real)(1), (real)(0));
 }

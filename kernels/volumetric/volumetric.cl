@@ -74,7 +74,7 @@ static inline __attribute__((always_inline)) real occluded_share(Frame frame, De
     const real middle = to_real(dx) * s.middle_x + to_real(dy) * s.middle_y;
     const mask counts = keep_in_frame(frame, r.x, r.y, within, &dx, &dy);
     const real left = 1 - square + (scalar)1e-20f;  // above 0
-    const Column column = column_of(middle, s.rise * (left * inverse_sqrt(left)));
+    const Column column = part_above(middle, s.rise * (left * inverse_sqrt(left)));
     const real found = occlusion_at(frame, layers, s, dx, dy, column, distance * s.bias, within);
     occluded += counted(counts, found);
     whole += column.high - column.low;

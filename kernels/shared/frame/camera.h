@@ -40,6 +40,9 @@ static inline real relative_depth(Anchor a, real own, real depth) {
   return smaller((depth - own) * a.inverse_depth, (real)(FARTHEST));
 }
 
+// The same, infinite for background. What is made from it, infinities and NaN, must count nowhere: a comparison must say so.
+static inline real any_relative_depth(Anchor a, real own, real depth) { return (depth - own) * a.inverse_depth; }
+
 // From the anchor's point to the point seen dx pixels to the right and dy pixels down at relative depth e, in units of the
 // anchor's depth. View space: y up, camera looks along -z.
 static inline real3 towards_near(Frame f, Anchor a, real dx, real dy, real e) {

@@ -35,6 +35,13 @@ static inline real load(PLANE plane, int i) { return to_real(JOIN(vload, LANES)(
 static inline void store(real value, PLANE_OUT plane, int i) { JOIN(vstore, LANES)(to_stored(value), 0, plane + i); }
 #endif
 
+// On CPUs: says that the row at an index will be loaded. An index beyond the plane does no harm.
+static inline void expect_load(global const float* plane, int i) {
+#if LANES > 1 && defined(__x86_64__)
+  __builtin_prefetch((const void*)(uintptr_t)(plane + i), 0, 2);
+#endif
+}
+
 static inline real3 load3(PLANE x, PLANE y, PLANE z, int i) { return make3(load(x, i), load(y, i), load(z, i)); }
 
 // Values of a plane at one index per lane.
