@@ -217,9 +217,8 @@ void run_views(const Plan& plan, const Frame& frame, const std::vector<const Vie
   size_t count_of_kernels = 0;
   for (const ViewOnDevice& target : targets) count_of_kernels += target.kernels.size();
   Launches launches(plan, device, options, tuning, int(count_of_kernels));
-  launches.repeat([&] {
-    for_each_launch(plan, targets, [&](ViewOnDevice& target, size_t k) { launches.launch(target, k); });
-  });
+  launches.repeat(
+      [&] { for_each_launch(plan, targets, [&](ViewOnDevice& target, size_t k) { launches.launch(target, k); }); });
   for (ViewOnDevice& target : targets) {
     count(plan, target, tuning.lanes, false, counted);
     collect(plan, target, result);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "support/stress.h"
 #include "support/techniques.h"
 
@@ -25,6 +27,37 @@ TEST(Run, APlaneThatAViewCameWithIsNoResultOfIt) {
   const Frame with_ao = run(plan, frame, device()).frame;
   ASSERT_EQ(with_ao.views.size(), 1u) << "the second view is only looked into";
   EXPECT_TRUE(same_bits(bare, with_ao));
+}
+
+/// While it lives, launches are waited for together, as on GPUs.
+class LaunchesAhead {
+ public:
+  LaunchesAhead() { setenv(variable, "ahead", 1); }
+  ~LaunchesAhead() { unsetenv(variable); }
+
+ private:
+  static constexpr const char* variable = "GLOAM_LAUNCHES";
+};
+
+/// evidence empties a list between its launches, the others read what earlier launches of their own and of the other view made.
+TEST(Run, LaunchesThatAreWaitedForTogetherComputeTheSame) {
+  for (const char* name : {"evidence", "stereo-gtao", "temporal-sssr", "lightfield-hbao+"}) {
+    const Technique& technique = find_technique(name);
+    Frame frame = shoot(perspective(48, 32), room());
+    const Plan plan = plan_for(technique, frame, few_samples(technique));
+    const RunResult one_by_one = run(plan, frame, device(), {.repeat = 2});
+    const LaunchesAhead ahead;
+    int told = 0, of = 0;
+    const RunResult together = run(plan, frame, device(), {.repeat = 2, .progress = [&](int done, int all) {
+                                                             EXPECT_EQ(done, ++told);
+                                                             of = all;
+                                                           }});
+    EXPECT_TRUE(same_bits(one_by_one.frame, together.frame)) << name;
+    EXPECT_EQ(told, of) << name;
+    EXPECT_EQ(one_by_one.listed, together.listed) << name;
+    ASSERT_EQ(one_by_one.passes.size(), together.passes.size()) << name;
+    for (const PassTime& pass : together.passes) EXPECT_EQ(pass.ms.size(), 2u) << pass.name;
+  }
 }
 
 }  // namespace
