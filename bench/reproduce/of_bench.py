@@ -1,6 +1,8 @@
 """bench/README.md"""
-from catalogue import table
-from intervals import MACHINE, RATIO
+import shutil
+
+from catalogue import NotHere, table
+from intervals import EXACT, MACHINE, RATIO
 from markdown import Table
 from recipes import rows_printed
 
@@ -20,3 +22,11 @@ def hbao_plus(lab):
 def denormals(lab):
     found = dict(rows_printed(lab.printed(lab.root / "build/bench/bench_denormals")))
     return [[cell[0] for cell in found[row[0]]] for row in Table(lab.root / PAGE, "bench_denormals").rows]
+
+
+@table(PAGE, "Instructions on GPUs", minutes=2, within=EXACT)
+def instructions(lab):
+    if not shutil.which("clang-15"):
+        raise NotHere("clang-15 and libclc-15 (Debian 12)")
+    rows = lab.printed(lab.root / "script/update-instruction-counts", lab.gloam, "--print").strip().split("\n")
+    return [[int(cell) for cell in row.strip("| ").split(" | ")[1:]] for row in rows]

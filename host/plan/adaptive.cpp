@@ -96,8 +96,18 @@ std::string bits_of(const Pass& pass) {
   return wanted == pass.reads.end() ? "" : wanted->plane;
 }
 
-/// The planned estimate with other settings, for the pixels that the planned one skips.
-PlannedPass estimate_of_rest(const PlannedPass& planned, const ParameterValues& values) {
+/// Whether a pass computes the pixels that the estimate listed.
+bool computes_list_of(const PlannedPass& planned, const PlannedPass& estimate) {
+  const auto is_listed = [&](const Binding& read) {
+    return std::any_of(estimate.pass.writes.begin(), estimate.pass.writes.end(),
+                       [&](const Binding& written) { return written.starts_empty && written.plane == read.plane; });
+  };
+  return planned.technique == estimate.technique &&
+         std::any_of(planned.pass.reads.begin(), planned.pass.reads.end(), is_listed);
+}
+
+/// A planned pass with other settings, for the pixels that the planned one skips.
+PlannedPass of_the_rest(const PlannedPass& planned, const ParameterValues& values) {
   std::vector<PlannedPass> passes = passes_with(*planned.technique, values);
   const auto same = std::find_if(passes.begin(), passes.end(),
                                  [&](const PlannedPass& p) { return p.pass.name == planned.pass.name; });
@@ -108,7 +118,7 @@ PlannedPass estimate_of_rest(const PlannedPass& planned, const ParameterValues& 
   for (const auto& define : planned.pass.defines) {
     if (define.first.rfind("WITH_", 0) == 0) rest.pass.defines.push_back(define);
   }
-  keep_skipped(rest.pass);
+  if (rest.pass.can_skip) keep_skipped(rest.pass);
   return rest;
 }
 
@@ -135,7 +145,10 @@ void adapt(Plan& plan, const std::vector<const Technique*>& techniques, const st
   if (estimate == plan.passes.end())
     throw UsageError("{}: {} has no estimate that can skip pixels; leave {} out", option("adaptive", preset),
                      technique.name, option("adaptive"));
-  PlannedPass rest = estimate_of_rest(*estimate, with_preset(technique, estimate->values, preset));
+  const ParameterValues values_of_rest = with_preset(technique, estimate->values, preset);
+  PlannedPass rest = of_the_rest(*estimate, values_of_rest);
+  const auto next = std::find_if_not(estimate + 1, plan.passes.end(),
+                                     [&](const PlannedPass& p) { return computes_list_of(p, *estimate); });
   std::vector<PlannedPass> passes(plan.passes.begin(), estimate);
   append(passes, base_passes(plan, techniques));
   passes.push_back(tiles_pass(passes.back().pass.writes.front().plane, values));
@@ -143,8 +156,11 @@ void adapt(Plan& plan, const std::vector<const Technique*>& techniques, const st
   PlannedPass important = *estimate;
   skip_by(important.pass, "wanted.important");
   skip_by(rest.pass, "wanted.smooth");
-  append(passes, {important, rest});
-  append(passes, std::vector<PlannedPass>(estimate + 1, plan.passes.end()));
+  passes.push_back(important);
+  append(passes, std::vector<PlannedPass>(estimate + 1, next));
+  passes.push_back(rest);
+  for (auto listed = estimate + 1; listed != next; ++listed) passes.push_back(of_the_rest(*listed, values_of_rest));
+  append(passes, std::vector<PlannedPass>(next, plan.passes.end()));
   plan.passes = std::move(passes);
   plan.rest = "wanted.smooth";
 }

@@ -34,7 +34,8 @@ static inline __attribute__((always_inline)) real obscurance_at(Frame frame, Par
   return sum_of_depths(layers, frame, here, place, r.farthest);
 #endif
   const real depth = depth_seen(gather(layers.first + here, place), by_both);
-  const real3 v = towards_depth(frame, r, dx, dy, depth);
+  // Background has no weight, wherever infinity leads.
+  const real3 v = towards_near(frame, r.point, dx, dy, any_relative_depth(r.point, r.depth, depth));
   const real by_first = obscurance(v, r.normal, params.bias, r.reach.inverse_square);
   const mask rises = fused_dot3(r.normal, v) > params.bias * least_distance(r, dx, dy);
   const mask asked = asks_behind(r, rises, v.z > 0, square_of(v) * r.reach.inverse_square >= 1);

@@ -54,15 +54,16 @@ TEST(OptionalPlanes, AreNotReadByRowsThatKnowTheLayers) {
 
 TEST(ExtrasInTwoSteps, AreCompletedOnlyWhereTheyAreAskedFor) {
   EXPECT_EQ(labels_of(plan_of({.outputs = {"evidence"}, .filter = "none"}, {"depth", "normal"})),
-            (Names{"evidence/estimate"}));
+            (Names{"evidence/estimate", "evidence/isolated"}));
   const Plan plan = plan_of({.outputs = {"evidence"}, .with = {"ao_error"}, .filter = "none"}, {"depth", "normal"});
-  EXPECT_EQ(labels_of(plan), (Names{"evidence/estimate", "evidence/filter error"}));
+  EXPECT_EQ(labels_of(plan), (Names{"evidence/estimate", "evidence/isolated", "evidence/filter error"}));
   EXPECT_EQ(plan.outputs, (Names{"ao_raw", "ao_error"}));
 }
 
 TEST(ExtrasForOthers, AreMadeWhereAnotherTechniqueReadsThem) {
   const Plan plan = plan_of({.outputs = {"specular-occlusion"}}, {"depth", "normal", "roughness"});
-  EXPECT_EQ(labels_of(plan), (Names{"evidence/estimate", "specular-occlusion/rows", "specular-occlusion/columns"}));
+  EXPECT_EQ(labels_of(plan),
+            (Names{"evidence/estimate", "evidence/isolated", "specular-occlusion/rows", "specular-occlusion/columns"}));
   EXPECT_EQ(plan.outputs, (Names{"specular_occlusion"}));
   EXPECT_TRUE(has_define(plan, "WITH_SPECULAR_OCCLUSION_RAW"));
   EXPECT_TRUE(has_define(plan, "WITH_LOBE_WEIGHT"));

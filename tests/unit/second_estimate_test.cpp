@@ -96,6 +96,25 @@ TEST_P(Adaptive, EachTileHasTheBitsOfOnePreset) {
   EXPECT_EQ(full.rest_share, 0);
 }
 
+/// One pixel of each tile, which the base pass does not see, lies before its neighbours: no filter averages it.
+TEST(AdaptiveEvidence, IsolatedPixelsHaveTheSlicesOfTheirTile) {
+  Frame frame = shoot(perspective(203, 90), room());
+  invent_for_extras(find_technique("evidence"), frame);
+  Channel& depth = frame.views[0].planes.at("depth").channels[0];
+  for (int y = 7; y < frame.height(); y += 16) {
+    for (int x = 5; x < frame.width(); x += 16) depth.at(x, y) *= 0.7f;
+  }
+  const Case c{&find_technique("evidence"), 0};
+  const RunResult full = result_of(frame, request_for(c, "medium")), low = result_of(frame, request_for(c, "low"));
+  PlanRequest few = request_for(c, "medium");
+  few.settings.emplace_back("edge_factor", "1");
+  ASSERT_FALSE(same_bits(full.frame, result_of(frame, few).frame)) << "no pixel is isolated";
+  const RunResult mixed = result_of(frame, request_for(c, "medium", "low", "0.3"));
+  const Shares found = shares(mixed.frame, full.frame, low.frame, 16);
+  EXPECT_GE(found.of_one, 3);
+  EXPECT_GE(found.of_other, 3);
+}
+
 TEST_P(Adaptive, TheLeastRangeDecides) {
   Frame frame = shoot(orthographic(67, 45, 4), room());
   invent_for_extras(*GetParam().technique, frame);
