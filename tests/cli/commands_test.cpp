@@ -89,7 +89,8 @@ TEST_F(Cli, ListsTheTextThatTheCompilerOfKernelsGets) {
   const Result shown = gloam({"list", "--kernel", "gtao/estimate"});
   ASSERT_EQ(shown.status, 0);
   for (const char* part :
-       {"// gtao/estimate, compiled with -D ", " -D DIRECTIONS=1 ", "typedef struct {\n  float radius;\n",
+       {"// gtao/estimate: gtao_estimate, compiled with -D ", " -D DIRECTIONS=1 ",
+        "typedef struct {\n  float radius;\n",
         "#define ARGUMENTS Frame frame, Params params, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z, "
         "PLANE_OUT ao_raw\n",
         "#line 1 \"gtao/gtao.cl\"\n", "\n// out: ao_raw; ", "\nkernel void gtao_estimate(ARGUMENTS) {\n"})
@@ -99,6 +100,10 @@ TEST_F(Cli, ListsTheTextThatTheCompilerOfKernelsGets) {
   for (const char* of_plans : {"resample/upsample ao", "resample/upsample reflectance", "mask/bits", "adaptive/tiles",
                                "temporal/accumulate", "gtao/estimate of the rest"})
     EXPECT_EQ(gloam({"list", "--kernel", of_plans}).status, 0) << of_plans;
+  const Result names = gloam({"list", "--kernel", "evidence"});
+  EXPECT_EQ(names.status, 0) << names.err;
+  EXPECT_EQ(names.out.find("evidence/estimate\nevidence/isolated\n"), 0u) << names.out;
+  EXPECT_EQ(gloam({"list", "--kernel", "evidense"}).status, 2);
 }
 
 TEST_F(Cli, QuietTellsErrorsButNoNotes) {
@@ -247,7 +252,7 @@ TEST_F(Cli, PlanNeedsNoDeviceAndReadsNoColour) {
   const Json plan = result.json();
   EXPECT_EQ(plan["outputs"], Json({"ao"}));
   EXPECT_EQ(plan["decoded"], Json({"Z"}));
-  EXPECT_EQ(passes_of(plan), (std::vector<std::string>{"normals/differences", "evidence/estimate",
+  EXPECT_EQ(passes_of(plan), (std::vector<std::string>{"normals/differences", "evidence/estimate", "evidence/isolated",
                                                        "bilateral/horizontal", "bilateral/vertical"}));
   const bool color_skipped =
       std::any_of(plan["skipped"].begin(), plan["skipped"].end(), [](const Json& s) { return s["what"] == "color"; });
@@ -265,13 +270,14 @@ TEST_F(Cli, APlaneCanBePlannedAsTheTechniqueThatMakesIt) {
   ASSERT_EQ(cone.status, 0) << cone.err;
   EXPECT_EQ(cone.json()["outputs"], Json({"ao", "cone"}));
   EXPECT_EQ(passes_of(cone.json())[0], "evidence/estimate");
-  EXPECT_EQ(cone.json()["passes"][0]["writes"], Json({"ao_raw", "cone"}));
+  EXPECT_EQ(cone.json()["passes"][0]["writes"], Json({"ao_raw", "isolated", "cone"}));
+  EXPECT_EQ(cone.json()["passes"][1]["writes"], Json({"ao_raw", "cone"}));
   EXPECT_EQ(plan({"--with", "hit"}).err,
             "gloam: --with hit: evidence does not make it; it has bent_normal, cone, "
             "specular_occlusion_raw, lobe_weight and ao_error\n");
-  EXPECT_EQ(passes_of(plan({"--filter", "gaussian"}).json())[1].rfind("gaussian/", 0), 0u);
+  EXPECT_EQ(passes_of(plan({"--filter", "gaussian"}).json())[2].rfind("gaussian/", 0), 0u);
   const Json half = plan({"--resolution", "half"}).json();
-  EXPECT_EQ(half["passes"][2]["writes"], Json({"ao_raw@2"})) << "the estimate runs reduced as well";
+  EXPECT_EQ(half["passes"][2]["writes"], Json({"ao_raw@2", "isolated@2"})) << "the estimate runs reduced as well";
   EXPECT_EQ(passes_of(gloam({"plan", "ao,hbao+", loggia, "--json", "-"}).json())[0], "hbao+/estimate");
 }
 
