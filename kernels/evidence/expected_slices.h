@@ -452,7 +452,7 @@ static inline __attribute__((always_inline)) void add_slice(Frame frame, Params 
 #endif
 }
 
-// The mean over SLICES slices. Returns the closed share.
+// The mean over ROUNDS times DIRECTIONS slices. Returns the closed share.
 static inline __attribute__((always_inline)) real mean_of_slices(Frame frame, Params params, DepthLayers layers,
                                                                  Search search, TABLE coefficients, int within,
                                                                  Sum* sum, OpenDirections* directions) {
