@@ -101,9 +101,9 @@ Pass mono_pass(const ParameterValues& values, const std::string& occluders) {
 Technique with_slices_at_edges(Technique t) {
   t.passes = [without = t.passes](const ParameterValues& values) {
     std::vector<Pass> passes = without(values);
+    if (values.as<EvidenceEdgeParams>().edge_factor == 1) return passes;
     const auto estimate =
         std::find_if(passes.begin(), passes.end(), [](const Pass& p) { return p.name == "estimate"; });
-    if (values.as<EvidenceEdgeParams>().edge_factor == 1) return passes;
     Pass isolated = *estimate;
     isolated.name = "isolated";
     isolated.reads.push_back("isolated");

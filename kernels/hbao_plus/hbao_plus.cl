@@ -183,7 +183,7 @@ static inline real open_to_both(Frame frame, Neighbour neighbour, Params params,
   const Frame other = neighbour.frame;
   mask is_seen;
   const Receiver there = receiver_there(frame, neighbour, params.radius, params.max_reach, here, may_differ, &is_seen);
-  const int is_inside = frame.pitch < SHORT_PITCH && reaches_only_inside(frame, here.point, here.reach);
+  const int is_inside = !is_wide(frame) && reaches_only_inside(frame, here.point, here.reach);
   if (!ANY(is_seen)) {
     const Fan fan = fan_of(here.reach, here.noise);
     return open_of(params, is_inside ? sum_around(frame, params, layers, here, fan, SAMPLES_INSIDE)

@@ -87,7 +87,7 @@ static inline void finish_spot(Spot* s, Frame f, PROJECTIONS p) {
     set_straight(s, f, p);
   else
     set_skewed(s, f, p);
-  s->noise = noise_of(to_natural(s->x), to_natural(s->y), f.seed);
+  s->noise = noise_at(s->x, s->y, f.seed);
 }
 
 static inline Spot spot_in_row(Frame f, PROJECTIONS p, Surfaces planes, PLANE normal_x, PLANE normal_y,
@@ -140,7 +140,7 @@ static inline __attribute__((always_inline)) mask place_sample(Frame f, const Sp
   if (!(p)->is_straight) {                                   \
     const int straight = 0, within = SAMPLES_IN_WIDE_FRAME;  \
     RESULT = CALL;                                           \
-  } else if ((f).pitch >= SHORT_PITCH) {                     \
+  } else if (is_wide(f)) {                                   \
     const int straight = 1, within = SAMPLES_IN_WIDE_FRAME;  \
     RESULT = CALL;                                           \
   } else if (reaches_only_inside(f, (spot).point, widest)) { \

@@ -176,13 +176,16 @@ static inline void store_four(real first, real second, real third, real fourth, 
 // Index, from the first lane's pixel, of the pixel dx to the right of and dy below each lane's own.
 static inline integer index_near(Frame f, integer dx, integer dy) { return dy * f.pitch + (dx + IOTA); }
 
-// As index_near, where |dy| and the pitch are below SHORT_PITCH: on AVX-512 a 16-bit product takes half as long as a 32-bit one.
-#define SHORT_PITCH 32768
 #if LANES == 16 && defined(__AVX512BW__)
 #define HAS_SHORT_PRODUCT 1
 #else
 #define HAS_SHORT_PRODUCT 0
 #endif
+
+// Whether the pitch has more bits than a short product takes, where there is one.
+static inline int is_wide(Frame f) { return HAS_SHORT_PRODUCT && f.pitch >= 32768; }
+
+// As index_near, in a frame that is not wide: on AVX-512 a 16-bit product takes half as long as a 32-bit one.
 static inline integer index_near_short(Frame f, integer dx, integer dy) {
 #if HAS_SHORT_PRODUCT
   typedef short Pairs __attribute__((vector_size(64)));

@@ -98,6 +98,14 @@ static inline Receiver receiver_of(Frame frame, scalar radius, scalar max_reach,
 #define LISTED 0
 #endif
 
+static inline void set_pixels(Receiver* r, Frame frame, integer x, integer y, int here, integer own) {
+  r->x = x;
+  r->y = y;
+  r->here = here;
+  r->own = own;
+  r->noise = noise_at(x, y, frame.seed);
+}
+
 // The receivers of a row.
 static inline Receiver receiver_at(Frame frame, scalar radius, scalar max_reach, PLANE depth, PLANE normal_x,
                                    PLANE normal_y, PLANE normal_z) {
@@ -106,11 +114,7 @@ static inline Receiver receiver_at(Frame frame, scalar radius, scalar max_reach,
   mask by_both;
   Receiver r = receiver_of(frame, radius, max_reach, to_real(x), (real)(y), depth_seen(load(depth, here), &by_both),
                            load3(normal_x, normal_y, normal_z, here));
-  r.x = x;
-  r.y = (integer)(y);
-  r.here = here;
-  r.own = IOTA;
-  r.noise = noise_at(x, r.y, frame.seed);
+  set_pixels(&r, frame, x, (integer)(y), here, IOTA);
   // The row below, which comes after the rest of this one: a CPU's own prefetching does not foresee the step down.
   const int below = here + frame.pitch;
   expect_load(depth, below);
@@ -127,11 +131,7 @@ static inline Receiver receiver_at_index(Frame frame, scalar radius, scalar max_
   mask by_both;
   Receiver r = receiver_of(frame, radius, max_reach, to_real(x), to_real(y), depth_seen(gather(depth, index), &by_both),
                            gather3(normal_x, normal_y, normal_z, index));
-  r.x = x;
-  r.y = y;
-  r.here = 0;
-  r.own = index;
-  r.noise = noise_at(x, y, frame.seed);
+  set_pixels(&r, frame, x, y, 0, index);
   return r;
 }
 
@@ -154,7 +154,7 @@ static inline void write_at(Receiver r, real value, PLANE_OUT plane) {
 
 // RESULT = CALL, with `within` set to what holds for all samples up to `widest` (sample.h).
 #define LOOK_AROUND(RESULT, frame, receiver, widest, CALL)           \
-  if (HAS_SHORT_PRODUCT && (frame).pitch >= SHORT_PITCH) {           \
+  if (is_wide(frame)) {                                              \
     const int within = SAMPLES_IN_WIDE_FRAME;                        \
     RESULT = CALL;                                                   \
   } else if (reaches_only_inside(frame, (receiver).point, widest)) { \

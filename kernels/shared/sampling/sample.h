@@ -15,9 +15,10 @@ typedef struct {
   real turn, shift;
 } Noise;
 
-static inline Noise noise_of(natural column, natural row, int seed) {
+static inline Noise noise_at(integer x, integer y, int seed) {
   Noise n;
 #if JITTER
+  const natural column = to_natural(x), row = to_natural(y);
   const uint first_turn = (uint)seed * 0x9e3779b9u, first_shift = (uint)seed * 0x6a09e667u;
   n.turn = unit_random(column * 0x8e42b7fdu + (row * 0x4f2cbe3cu + first_turn));
   n.shift = unit_random(column * 0xc13fa9a9u + (row * 0x91e10da6u + first_shift));
@@ -27,8 +28,6 @@ static inline Noise noise_of(natural column, natural row, int seed) {
 #endif
   return n;
 }
-
-static inline Noise noise_at(integer x, integer y, int seed) { return noise_of(to_natural(x), to_natural(y), seed); }
 
 // Turns by the golden angle, the step between points of a Fibonacci spiral.
 static inline void turn_golden(scalar* cosine, scalar* sine) {
@@ -67,7 +66,7 @@ static inline Reach longer(Reach r, real factor) {
 // mode. (A single loop for all modes is a sixth slower on AVX-512.)
 #define SAMPLES_INSIDE 0         // every sample of every lane lies in the frame
 #define SAMPLES_CLAMPED 1        // some are moved onto its border
-#define SAMPLES_IN_WIDE_FRAME 2  // as SAMPLES_CLAMPED, and the pitch has more than 15 bits (load.h)
+#define SAMPLES_IN_WIDE_FRAME 2  // as SAMPLES_CLAMPED, in a wide frame (load.h)
 
 // Whether the reach of every lane's pixel lies within the frame.
 static inline int reaches_only_inside(Frame f, Anchor a, Reach r) {
@@ -101,7 +100,7 @@ static inline real counted(mask counts, real found) {
 #endif
 }
 
-// Index, from the first lane's, of an offset that stays in the frame. |dy| is below SHORT_PITCH.
+// Index, from the first lane's, of an offset that stays in the frame. |dy| is below 32768.
 static inline integer index_within(Frame f, int within, integer dx, integer dy) {
   return within == SAMPLES_IN_WIDE_FRAME ? index_near(f, dx, dy) : index_near_short(f, dx, dy);
 }

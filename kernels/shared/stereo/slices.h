@@ -138,7 +138,7 @@ static inline real open_to_both(TABLE_PARAMETERS SOURCE_PARAMETERS Frame frame, 
   there.sources.packed = other_sources;
 #endif
   real open;
-  if (frame.pitch < SHORT_PITCH &&
+  if (!is_wide(frame) &&
       reaches_only_inside(frame, receiver.point, longer(receiver.reach, here.surface.length)) &&
       reaches_only_inside(other, receiver_of_other.point, longer(receiver_of_other.reach, there.surface.length)))
     open = share_open_to_both(TABLES frame, other, params, layers, other_layers, here, there, is_seen, SAMPLES_INSIDE,
