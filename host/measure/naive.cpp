@@ -39,6 +39,14 @@ NaiveSettings settings_of(const PlannedPass& planned, int width) {
           .rows = define_of(planned.pass, "ROWS")};
 }
 
+/// The settings of a pass's kernels, one after another: a separable filter is two.
+std::vector<NaiveSettings> kernels_of(const PlannedPass& planned, int width) {
+  NaiveSettings first = settings_of(planned, width), second = first;
+  if (define_of(planned.pass, "SEPARABLE") == 0) return {first};
+  first.rows = second.columns = 0;
+  return {first, second};
+}
+
 std::string options(const NaiveSettings& settings, Counts counts) {
   std::string text = "-cl-std=CL1.2 -cl-mad-enable -cl-no-signed-zeros";
   if (counts == Counts::unrolled)
@@ -101,26 +109,34 @@ Naive::Naive(const Plan& plan, const Frame& frame, DevicePlanes& planes, Device&
     : device_(device), planes_(planes) {
   const PixelCamera camera = pixel_camera(frame);
   global_ = cl::NDRange(size_t(camera.width), size_t(camera.height));
+  const size_t between = plan.passes.size();  // number of a plane for what a filter makes along rows
   for (size_t i = 0; i < plan.passes.size(); ++i) {
     const NaiveKernel& naive = *naive_kernel_for(plan.passes[i]);
-    const NaiveSettings settings = settings_of(plan.passes[i], camera.width);
-    cl::Kernel kernel = build(device, std::string(naive_cl) + naive.text, options(settings, counts), naive.kernel);
-    kernel.setArg(0, camera);
-    kernel.setArg(1, settings);
-    kernel.setArg(2, planes.depth);
-    kernel.setArg(3, planes.normal_x);
-    kernel.setArg(4, planes.normal_y);
-    kernel.setArg(5, planes.normal_z);
-    kernel.setArg(6, planes.result(i).buffer);
-    if (naive.filters) kernel.setArg(7, planes.result(i - 1).buffer);
-    launch(device, kernel, global_);
-    passes_.push_back({std::move(kernel), {}});
+    const std::vector<NaiveSettings> all = kernels_of(plan.passes[i], camera.width);
+    Pass& pass = passes_.emplace_back();
+    for (size_t k = 0; k < all.size(); ++k) {
+      cl::Kernel& kernel = pass.kernels.emplace_back(
+          build(device, std::string(naive_cl) + naive.text, options(all[k], counts), naive.kernel));
+      kernel.setArg(0, camera);
+      kernel.setArg(1, all[k]);
+      kernel.setArg(2, planes.depth);
+      kernel.setArg(3, planes.normal_x);
+      kernel.setArg(4, planes.normal_y);
+      kernel.setArg(5, planes.normal_z);
+      kernel.setArg(6, planes.result(k + 1 < all.size() ? between : i).buffer);
+      if (naive.filters) kernel.setArg(7, planes.result(k > 0 ? between : i - 1).buffer);
+      launch(device, kernel, global_);
+    }
   }
 }
 
 double Naive::run() {
   double sum = 0;
-  for (Pass& pass : passes_) sum += pass.ms.emplace_back(launch(device_, pass.kernel, global_));
+  for (Pass& pass : passes_) {
+    double ms = 0;
+    for (cl::Kernel& kernel : pass.kernels) ms += launch(device_, kernel, global_);
+    sum += pass.ms.emplace_back(ms);
+  }
   return sum;
 }
 

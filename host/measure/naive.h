@@ -53,7 +53,7 @@ class Naive {
 
  private:
   struct Pass {
-    cl::Kernel kernel;
+    std::vector<cl::Kernel> kernels;
     Series ms;
   };
   Device& device_;

@@ -37,7 +37,7 @@ std::string per_device(const Material& material, const Body& body) {
   return text;
 }
 
-/// The share of each part; the passes of a filter ("bilateral/horizontal", "bilateral/vertical") count as one.
+/// The share of each part; the passes of a filter ("gaussian/horizontal", "gaussian/vertical") count as one.
 std::map<std::string, double> shares_of(const Row& row) {
   std::map<std::string, double> shares;
   for (const Share& share : row.spent_on) shares[share.what.substr(0, share.what.find('/'))] += share.share;

@@ -47,7 +47,7 @@ struct RoundRatios {
 
 /// A part of a technique's time.
 struct Share {
-  std::string what;  ///< "gathers", "arithmetic of the estimate", or a pass: "bilateral/horizontal"
+  std::string what;  ///< "gathers", "arithmetic of the estimate", or a pass: "bilateral/separable"
   double share = 0;  ///< 0 to 1
 };
 

@@ -5,6 +5,7 @@
 #include "gloam/error.h"
 #include "run/arguments.h"
 #include "run/driver.h"
+#include "run/launch.h"
 #include "technique/kernel_sources.h"
 
 namespace gloam {
@@ -27,6 +28,7 @@ std::string build_options(const PlannedPass& planned, const DeviceInfo& info, co
   if (const char* error = std::getenv("GLOAM_QUOTIENT_ERROR"); error && *error)
     text += fmt::format(" -D QUOTIENT_ERROR={}", std::atoi(error));
   if (options.gathers_only) text += " -D GATHERS_ONLY=1";
+  if (planned.pass.goes_down) text += fmt::format(" -D ROWS_OF_ITEM={}", rows_of_item(info, planned.pass));
   for (const auto& [name, value] : planned.pass.defines) text += fmt::format(" -D {}={}", name, value);
   return text;
 }

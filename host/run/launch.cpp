@@ -52,7 +52,18 @@ size_t most_per_group_of(const cl::Kernel& kernel, const Device::Impl& device, c
   return std::min(size_t(tuning.group), kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device.device));
 }
 
+/// Work-items from the image's top to its bottom.
+size_t items_down(const DeviceInfo& info, const Pass& pass, const Layout& layout) {
+  const size_t each = size_t(rows_of_item(info, pass));
+  return (size_t(layout.height) + each - 1) / each;
+}
+
 }  // namespace
+
+int rows_of_item(const DeviceInfo& info, const Pass& pass) {
+  if (!pass.goes_down) return 1;
+  return info.type == "cpu" ? 32 : 16;
+}
 
 bool launches_ahead(const DeviceInfo& info) {
   const char* asked = std::getenv("GLOAM_LAUNCHES");
@@ -61,7 +72,9 @@ bool launches_ahead(const DeviceInfo& info) {
 
 Launch launch(Device::Impl& device, cl::Kernel& kernel, const Pass& pass, const Layout& layout, const Tuning& tuning) {
   Launch launch{.start = std::chrono::steady_clock::now(), .cpu_before = process_cpu_ms()};
-  const size_t columns = size_t(layout.pitch / tuning.lanes), rows = size_t(layout.height);
+  // Padding that a caller's memory may have beyond whole rows of lanes is not computed.
+  const size_t columns = size_t(Layout(layout.width, 1).pitch / tuning.lanes),
+               rows = items_down(device.info, pass, layout);
   const cl::NDRange group = group_size(device.info, columns, rows, most_per_group_of(kernel, device, tuning));
   const size_t strip = columns_of_strip(device.info, pass, columns, group, tuning.lanes);
   const size_t rows_left = group.dimensions() == 2 ? rows % group[1] : 0;

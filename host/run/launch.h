@@ -26,6 +26,9 @@ struct Launch {
 /// launch by launch. Tests set GLOAM_LAUNCHES=ahead, so that CPUs do as GPUs do, without processor times.
 bool launches_ahead(const DeviceInfo& info);
 
+/// Rows of pixels that a work-item computes.
+int rows_of_item(const DeviceInfo& info, const Pass& pass);
+
 /// Enqueues a pass's kernel on an image of this layout.
 Launch launch(Device::Impl& device, cl::Kernel& kernel, const Pass& pass, const Layout& layout, const Tuning& tuning);
 

@@ -8,6 +8,9 @@
 namespace gloam {
 namespace {
 
+/// Wider filters keep too many rows for a GPU's registers.
+constexpr int widest_in_one_pass = 4;
+
 Pass bilateral_pass(const std::string& name, const std::string& from, const std::string& to, int columns, int rows) {
   const int components = int(plane_kind(to).components.size());
   return {.name = name,
@@ -35,12 +38,21 @@ void call_samples_points(Technique& technique) {
 
 }  // namespace
 
-std::vector<Pass> bilateral_passes(int half_width, bool is_square, const std::string& source,
-                                   const std::string& result) {
-  if (is_square) return {bilateral_pass("square", source, result, half_width, half_width)};
+std::vector<Pass> bilateral_passes_along_axes(int half_width, const std::string& source, const std::string& result) {
   const std::string between = result + "@across";
   return {bilateral_pass("horizontal", source, between, half_width, 0),
           bilateral_pass("vertical", between, result, 0, half_width)};
+}
+
+std::vector<Pass> bilateral_passes(int half_width, bool is_square, const std::string& source,
+                                   const std::string& result) {
+  if (is_square) return {bilateral_pass("square", source, result, half_width, half_width)};
+  if (half_width > widest_in_one_pass) return bilateral_passes_along_axes(half_width, source, result);
+  Pass both = bilateral_pass("separable", source, result, half_width, half_width);
+  both.kernel = "bilateral_separable";
+  both.defines.emplace_back("SEPARABLE", 1);
+  both.goes_down = true;
+  return {both};
 }
 
 Technique ambient_occlusion(std::string name, std::string summary, std::string paper, std::string source) {

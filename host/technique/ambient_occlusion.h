@@ -44,10 +44,13 @@ Pass ambient_occlusion_estimate(const Params& p, std::string kernel, Defines def
           .can_skip = true};
 }
 
-/// The cross-bilateral filter (shared/filter/bilateral_filter.h) from `source` to `result`, planes of one component or colours: one
-/// pass along rows and one along columns, or one pass over a square. `half_width`: taps on either side, pixels.
+/// The cross-bilateral filter (shared/filter/bilateral_filter.h) from `source` to `result`, planes of one component or colours: along
+/// rows and then along columns, in one pass up to a half width of 4, or over a square. `half_width`: taps on either side, pixels.
 std::vector<Pass> bilateral_passes(int half_width, bool is_square, const std::string& source,
                                    const std::string& result);
+
+/// The filter as one pass along rows and one along columns, whatever its width.
+std::vector<Pass> bilateral_passes_along_axes(int half_width, const std::string& source, const std::string& result);
 
 /// A variant of a technique with every layer of the peeled depth as an occluder: "dp-" before its name; its estimate also reads
 /// the stack `occluders`.

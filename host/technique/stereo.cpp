@@ -173,7 +173,9 @@ Technique over_two_eyes(Technique mono, const std::string& both) {
 
 std::vector<Pass> stereo_filter_passes(int half_width, bool is_square, const std::string& raw,
                                        const std::string& result) {
-  std::vector<Pass> passes = bilateral_passes(half_width, is_square, raw, result + "@one_eye");
+  const std::string one_eye = result + "@one_eye";
+  std::vector<Pass> passes = is_square ? bilateral_passes(half_width, true, raw, one_eye)
+                                       : bilateral_passes_along_axes(half_width, raw, one_eye);
   keep_weights(passes);
   passes.push_back(blend(passes.back(), result));
   return passes;

@@ -32,11 +32,7 @@ kernel void ssr_rays(ARGUMENTS) {
   const Reflector s = reflector_of(frame, params, here, depth, normal_x, normal_y, normal_z, roughness, reflectance_r,
                                    reflectance_g, reflectance_b);
   const Noise noise = noise_at(FIRST_X + IOTA, (integer)(ROW_Y), frame.seed);
-#if MASKED
-  const mask is_wanted = wanted_in_row(wanted, frame);
-#else
-  const mask is_wanted = EVERY_LANE;
-#endif
+  const mask is_wanted = WANTED_PIXELS(frame, ROW_Y);
   for (int k = 0; k < RAYS; ++k) {
     real density = 0;
     if (ANY(s.reflects & is_wanted)) {

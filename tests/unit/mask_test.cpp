@@ -45,7 +45,7 @@ std::string wanted_by(const Plan& plan, const std::string& label) {
 TEST(Mask, TheCellsOfAMaskDoWhereNobodyAsksForTheMaskItself) {
   const Plan plan = plan_of({.outputs = {"hbao+"}, .only = "corner-mask"});
   EXPECT_EQ(labels_of(plan), (Names{"corner-mask/subsample", "corner-mask/find", "corner-mask/grow", "mask/bits",
-                                    "mask/grown", "hbao+/estimate", "bilateral/horizontal", "bilateral/vertical"}));
+                                    "mask/grown", "hbao+/estimate", "bilateral/separable"}));
   const Plan with_mask = plan_of({.outputs = {"hbao+", "corner-mask"}, .only = "corner-mask"});
   EXPECT_NE(labels_of(with_mask), labels_of(plan));
   EXPECT_EQ(with_mask.outputs, (Names{"ao", "ao_raw", "mask"}));
@@ -54,8 +54,12 @@ TEST(Mask, TheCellsOfAMaskDoWhereNobodyAsksForTheMaskItself) {
 TEST(Mask, TheEstimateCoversWhatFiltersReadAndTheLastFilterTheMask) {
   const Plan plan = plan_of({.outputs = {"gtao"}, .only = "mask"}, {"depth", "normal", "mask"});
   EXPECT_EQ(wanted_by(plan, "gtao/estimate"), "wanted.grown");
-  EXPECT_EQ(wanted_by(plan, "bilateral/horizontal"), "wanted.grown");
-  EXPECT_EQ(wanted_by(plan, "bilateral/vertical"), "wanted");
+  EXPECT_EQ(wanted_by(plan, "bilateral/separable"), "wanted");
+  const Plan wide =
+      plan_of({.outputs = {"gtao"}, .settings = {{"half_width", "5"}}, .only = "mask"}, {"depth", "normal", "mask"});
+  EXPECT_EQ(wanted_by(wide, "gtao/estimate"), "wanted.grown");
+  EXPECT_EQ(wanted_by(wide, "bilateral/horizontal"), "wanted.grown");
+  EXPECT_EQ(wanted_by(wide, "bilateral/vertical"), "wanted");
   const Plan unfiltered = plan_of({.outputs = {"gtao"}, .filter = "none", .only = "mask"}, {"depth", "normal", "mask"});
   EXPECT_EQ(labels_of(unfiltered), (Names{"mask/bits", "gtao/estimate"}));
   EXPECT_EQ(wanted_by(unfiltered, "gtao/estimate"), "wanted");

@@ -17,39 +17,70 @@ typedef struct {
   real sums[COMPONENTS], weights;
 } Taps;
 
-static inline void add_tap(Taps* taps, real weight, mask counts, Sources sources, int there) {
-  const real counted = choose(counts, weight, (real)(0));
-#pragma unroll
-  for (int c = 0; c < COMPONENTS; ++c)
-    taps->sums[c] = multiply_add(counted, source_at(sources, c, there), taps->sums[c]);
-  taps->weights += counted;
-}
-
-// Sums over the taps around each pixel of a row that begins at `here`. The pixel itself has weight 1.
-static inline Taps taps_around(Frame frame, TangentPlane plane, integer x, int y, int here, Sources sources,
-                               PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z) {
+// The taps of a pixel alone, which has weight 1.
+static inline Taps own_tap(const real* values) {
   Taps taps;
 #pragma unroll
-  for (int c = 0; c < COMPONENTS; ++c) taps.sums[c] = source_at(sources, c, here);
+  for (int c = 0; c < COMPONENTS; ++c) taps.sums[c] = values[c];
   taps.weights = (real)(1);
-#if COLUMNS == 0
+  return taps;
+}
+
+static inline void add_tap(Taps* taps, real weight, const real* values) {
 #pragma unroll
-#endif
-  for (int j = -ROWS; j <= ROWS; ++j) {
+  for (int c = 0; c < COMPONENTS; ++c) taps->sums[c] = multiply_add(weight, values[c], taps->sums[c]);
+  taps->weights += weight;
+}
+
+static inline void load_sources(Sources sources, int i, real* values) {
+#pragma unroll
+  for (int c = 0; c < COMPONENTS; ++c) values[c] = source_at(sources, c, i);
+}
+
+// Sums over the taps in `columns` to either side of each pixel of a row that begins at `here`, and in `rows` above and below: constants, as
+// is `is_inside`: all columns lie in the image. What lies beside the image may be NaN.
+static inline __attribute__((always_inline)) Taps taps_around(Frame frame, TangentPlane plane, integer x, int y, int here,
+                                                              int columns, int rows, Sources sources, PLANE depth,
+                                                              PLANE normal_x, PLANE normal_y, PLANE normal_z) {
+  real values[COMPONENTS];
+  load_sources(sources, here, values);
+  Taps taps = own_tap(values);
+  for (int j = -rows; j <= rows; ++j) {
     if (y + j < 0 || y + j >= frame.height) continue;
 #pragma unroll
-    for (int i = -COLUMNS; i <= COLUMNS; ++i) {
+    for (int i = -columns; i <= columns; ++i) {
       if (i == 0 && j == 0) continue;
       const int there = here + j * frame.pitch + i;
-      const real step = ROWS == 0      ? (scalar)i * plane.per_column
-                        : COLUMNS == 0 ? (scalar)j * plane.per_row
+      const real step = rows == 0      ? (scalar)i * plane.per_column
+                        : columns == 0 ? (scalar)j * plane.per_row
                                        : (scalar)i * plane.per_column + (scalar)j * plane.per_row;
       const real weight =
-          window_at(i, COLUMNS) * window_at(j, ROWS) *
+          window_at(i, columns) * window_at(j, rows) *
           same_surface(plane, frame, step, load(depth, there), load3(normal_x, normal_y, normal_z, there));
-      const mask in_row = COLUMNS == 0 ? EVERY_LANE : to_mask(to_natural(x + i) < (natural)((uint)frame.width));
-      add_tap(&taps, weight, in_row, sources, there);
+      const mask in_row = columns == 0 ? EVERY_LANE : to_mask(to_natural(x + i) < (natural)((uint)frame.width));
+      load_sources(sources, there, values);
+      // What lies beside the image may be NaN.
+#pragma unroll
+      for (int c = 0; c < COMPONENTS; ++c) values[c] = choose(in_row, values[c], (real)(0));
+      add_tap(&taps, choose(in_row, weight, (real)(0)), values);
     }
+  }
+  return taps;
+}
+
+// As taps_around for the taps above and below. `values`: of the pixels of 2 * rows + 1 rows, one component after another in each.
+static inline __attribute__((always_inline)) Taps taps_along_column(Frame frame, TangentPlane plane, int y, int here, int rows,
+                                                                    const real* values, PLANE depth, PLANE normal_x,
+                                                                    PLANE normal_y, PLANE normal_z) {
+  Taps taps = own_tap(values + rows * COMPONENTS);
+#pragma unroll
+  for (int j = -rows; j <= rows; ++j) {
+    if (j == 0 || y + j < 0 || y + j >= frame.height) continue;
+    const int there = here + j * frame.pitch;
+    const real weight =
+        window_at(j, rows) * same_surface(plane, frame, (scalar)j * plane.per_row, load(depth, there),
+                                          load3(normal_x, normal_y, normal_z, there));
+    add_tap(&taps, weight, values + (rows + j) * COMPONENTS);
   }
   return taps;
 }

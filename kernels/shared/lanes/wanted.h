@@ -38,9 +38,9 @@ static inline uint bit_of_each_lane(mask m) {
 #endif
 }
 
-// The wanted pixels of a work-item's row.
-static inline mask wanted_in_row(WANTED wanted, Frame f) {
-  const uint word = ((global const uint*)wanted)[index_of(f, FIRST_X / 32, ROW_Y)] >> (FIRST_X % 32);
+// The wanted pixels of a work-item's columns in a row.
+static inline mask wanted_in_row(WANTED wanted, Frame f, int y) {
+  const uint word = ((global const uint*)wanted)[index_of(f, FIRST_X / 32, y)] >> (FIRST_X % 32);
 #if LANES == 1
   return word & 1;
 #else
@@ -54,11 +54,27 @@ static inline mask wanted_in_row(WANTED wanted, Frame f) {
 #define OPEN_UNLESS_KEPT(STORE) STORE;
 #endif
 
+// WANTED_PIXELS(frame, y): the wanted pixels of a work-item's columns in row y.
+// WANTED_ROWS(frame, first, end): bit i tells whether one of them is wanted in row first + i, before `end`; at most 32 rows.
+#if MASKED
+#define WANTED_PIXELS(frame, y) wanted_in_row(wanted, frame, y)
+#define WANTED_ROWS(frame, first, end) rows_with_wanted(wanted, frame, first, end)
+
+static inline uint rows_with_wanted(WANTED wanted, Frame f, int first, int end) {
+  uint rows = 0;
+  for (int y = first; y < end; ++y) rows |= ANY(wanted_in_row(wanted, f, y)) ? 1u << (y - first) : 0;
+  return rows;
+}
+#else
+#define WANTED_PIXELS(frame, y) EVERY_LANE
+#define WANTED_ROWS(frame, first, end) 0xffffffffu
+#endif
+
 // Defines `is_wanted`. If no pixel of the row is wanted, the kernel returns after STORE, which writes the values of skipped
 // pixels at index `here`.
 #if MASKED
 #define SKIP_UNWANTED(frame, STORE)                    \
-  const mask is_wanted = wanted_in_row(wanted, frame); \
+  const mask is_wanted = WANTED_PIXELS(frame, ROW_Y);  \
   if (!ANY(is_wanted)) {                               \
     const int here = index_of(frame, FIRST_X, ROW_Y);  \
     OPEN_UNLESS_KEPT(STORE)                            \

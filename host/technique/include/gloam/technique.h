@@ -99,6 +99,8 @@ struct Pass {
   int scale = 1;
   On on = On::every_view;
   Footprint footprint;
+  /// Each work-item computes several rows, one below another; the kernel gets their number, ROWS_OF_ITEM (1 to 32).
+  bool goes_down = false;
   /// With a mask it skips rows of lanes without a wanted pixel (shared/lanes/wanted.h).
   bool can_skip = false;
   /// The kernel reads `projections` (shared/both/projection.h): the view's own, then, if it reads key views, those of the
