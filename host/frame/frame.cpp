@@ -25,6 +25,7 @@ std::vector<std::string> view_names(const Frame& frame) {
 void Channel::Free::operator()(float* p) const { give_back_pages(p, bytes); }
 
 Layout reduced(const Layout& layout, int scale) {
+  if (scale == 1) return layout;
   return Layout((layout.width + scale - 1) / scale, (layout.height + scale - 1) / scale);
 }
 

@@ -40,6 +40,7 @@ inline py::list texts_of(const std::vector<std::string>& texts) {
 void add_errors(py::module_& module);
 void add_camera(py::module_& module);
 void add_devices(py::module_& module);
+void add_device_memory(py::module_& module);
 void add_frames(py::module_& module);
 void add_files(py::module_& module);
 void add_techniques(py::module_& module);

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "base/memory.h"
+#include "gloam/device_memory.h"
 #include "python/bindings.h"
 #include "python/doc_strings.h"
 #include "python/interrupts.h"
@@ -31,6 +32,14 @@ std::string in_words(const DeviceInfo& info) {
                      memory_in_words(info.memory));
 }
 
+/// The device of a caller's queue: an object of pyopencl, or its address.
+std::shared_ptr<Device> of_queue(const py::object& queue) {
+  const py::object address = py::module_::import("gloam._device_memory").attr("handle")("queue", queue);
+  return without_lock([&, number = py::cast<std::uintptr_t>(address)](Interrupts&) {
+    return std::make_shared<Device>(device_of(reinterpret_cast<cl_command_queue>(number)));
+  });
+}
+
 }  // namespace
 
 std::shared_ptr<Device> shared_device(const std::string& text) {
@@ -53,14 +62,15 @@ void add_devices(py::module_& module) {
       .def("__repr__", [](const DeviceInfo& info) { return fmt::format("<gloam.DeviceInfo {}>", in_words(info)); });
   py::class_<Device, std::shared_ptr<Device>> device(module, "Device", device_help);
   device
-      .def(py::init([](const py::object& given) {
+      .def(py::init([](const py::object& given, const py::object& queue) {
+             if (!queue.is_none()) return of_queue(queue);
              if (!py::isinstance<py::str>(given))
                throw UsageError("device is of type {}; a text is allowed, part of a name of gloam.devices()",
                                 py::cast<std::string>(py::type::of(given).attr("__name__")));
              const auto text = py::cast<std::string>(given);
              return without_lock([&](Interrupts&) { return std::make_shared<Device>(text); });
            }),
-           py::arg("text") = "")
+           py::arg("text") = "", py::arg("queue") = py::none())
       .def("__repr__", [](const Device& self) { return fmt::format("<gloam.Device {}>", in_words(self.info())); });
   const auto of_info = [&](const char* name, auto member) {
     device.def_property_readonly(name, [member](const Device& self) { return self.info().*member; });

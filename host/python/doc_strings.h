@@ -19,7 +19,13 @@ inline constexpr const char* device_help = R"(An OpenCL device, open, with its c
 text: part of the platform's or the device's name, in any case; empty: the first GPU, else the widest CPU. Without a device, calls open the one
 that their `device` text stands for at its first use, and keep it. Threads may share a device: their work on it runs one after another; devices
 of their own run side by side.
+queue: instead of a text, a command queue of pyopencl, or its address: the device works on that queue, with its context, for gloam.enqueue.
 Raises gloam.Error, with a list of the devices, if none matches.)";
+
+inline constexpr const char* enqueued_help =
+    R"(What gloam.enqueue has enqueued. wait(): until the results are whole.  int_ptr: the address of the event that then is complete, for
+pyopencl.Event.from_int_ptr or another queue's wait list; it lives as long as this object.
+copied: names of planes that were copied on the device; the others are used in place.  device_bytes: allocated besides the caller's buffers.)";
 
 inline constexpr const char* device_info_help =
     R"(What is known of a device: platform, name, type ("cpu", "gpu" or "other"), driver, lanes (pixels per work-item

@@ -9,6 +9,7 @@ PYBIND11_MODULE(_gloam, module) {
   add_errors(module);
   add_camera(module);
   add_devices(module);
+  add_device_memory(module);
   add_frames(module);
   add_files(module);
   add_techniques(module);

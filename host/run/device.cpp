@@ -224,6 +224,22 @@ Device::Device(const std::string& text, bool uses_measured_tuning) : impl_(std::
   }
 }
 
+Device::Device(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+std::unique_ptr<Device::Impl> impl_of(const cl::CommandQueue& queue) {
+  auto impl = std::make_unique<Device::Impl>();
+  impl->queue = queue;
+  impl->device = queue.getInfo<CL_QUEUE_DEVICE>();
+  impl->context = queue.getInfo<CL_QUEUE_CONTEXT>();
+  impl->info = describe(cl::Platform(impl->device.getInfo<CL_DEVICE_PLATFORM>()), impl->device);
+  const cl_command_queue_properties properties = queue.getInfo<CL_QUEUE_PROPERTIES>();
+  if (properties & CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE)
+    throw Error("the queue of '{}' runs commands out of order; give one that keeps their order", label_of(impl->info));
+  if (!(properties & CL_QUEUE_PROFILING_ENABLE)) impl->info.has_timestamps = false;
+  if (!impl->info.keeps_kernels) impl->cache = own_kernel_cache();
+  return impl;
+}
+
 Device::~Device() = default;
 Device::Device(Device&&) noexcept = default;
 

@@ -16,6 +16,9 @@ namespace gloam {
 /// "CL_OUT_OF_RESOURCES" for -5.
 std::string cl_error_name(int code);
 
+/// Of the caller's queue. Throws Error for one that runs commands out of order.
+std::unique_ptr<Device::Impl> impl_of(const cl::CommandQueue& queue);
+
 struct Device::Impl {
   std::recursive_mutex busy;  ///< held while anything runs or is compiled
   DeviceInfo info;

@@ -18,34 +18,40 @@ const Plane& input_plane(const Plan& plan, const Frame& frame, const View& view,
   return *plane;
 }
 
-void fill(ViewOnDevice& target, const Plan& plan) {
+void upload_inputs(const Plan& plan, ViewOnDevice& target) {
   std::map<std::string, const Plane*> inputs;
   for (const std::string& name : plan.inputs) inputs[name] = &input_plane(plan, target.frame, target.view, name);
-  const std::map<std::string, std::string> shared = shared_memory(plan, target.layouts);
   for (const std::string& name : planes_of(plan)) {
     if (const auto stack = plan.stacks.find(name); stack != plan.stacks.end()) {
       std::vector<const Plane*> layers;
       for (const std::string& layer : stack->second) layers.push_back(inputs.at(layer));
       target.buffers.upload_stack(name, layers);
-      target.planes.insert(name);
     } else if (const auto input = inputs.find(name); input != inputs.end()) {
       target.buffers.upload(*input->second);
-      target.planes.insert(name);
-    } else if (const size_t layers = layers_in_buffer(plan, name); layers > 1 || is_stack(name)) {
-      target.buffers.allocate_stack(name, target.layouts.of(name), layers);
-    } else if (!shared.contains(name)) {
-      target.buffers.allocate(name, target.layouts.of(name));
+    } else {
+      continue;
     }
+    target.planes.insert(name);
   }
-  for (const auto& [name, memory] : shared) target.buffers.share(name, memory);
 }
 
 }  // namespace
 
+void allocate_computed(const Plan& plan, ViewOnDevice& target) {
+  const std::map<std::string, std::string> shared = shared_memory(plan, target.layouts);
+  for (const std::string& name : planes_of(plan)) {
+    if (target.buffers.has(name) || shared.contains(name)) continue;
+    if (const size_t layers = layers_in_buffer(plan, name); layers > 1 || is_stack(name))
+      target.buffers.allocate_stack(name, target.layouts.of(name), layers);
+    else
+      target.buffers.allocate(name, target.layouts.of(name));
+  }
+  for (const auto& [name, memory] : shared) target.buffers.share(name, memory);
+}
+
 void Buffers::upload(const Plane& plane) {
   for (const Channel& channel : plane.channels) {
-    const cl_mem_flags flags =
-        CL_MEM_READ_ONLY | (device_.info.shares_memory ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR);
+    const cl_mem_flags flags = CL_MEM_READ_ONLY | (in_host_pages_ ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR);
     buffers_[plane.name].emplace_back(device_.context, flags, channel.layout().bytes(),
                                       const_cast<float*>(channel.data()));
   }
@@ -61,6 +67,7 @@ void Buffers::upload_stack(const std::string& name, const std::vector<const Plan
 }
 
 void Buffers::allocate_stack(const std::string& name, const Layout& layout, size_t layers) {
+  bytes_ += layers * layout.bytes();
   cl::Buffer buffer(device_.context, CL_MEM_READ_WRITE, layers * layout.bytes());
   device_.queue.enqueueFillBuffer(buffer, plane_kind(name).outside, 0, layers * layout.bytes());
   buffers_[name].push_back(std::move(buffer));
@@ -69,7 +76,8 @@ void Buffers::allocate_stack(const std::string& name, const Layout& layout, size
 void Buffers::allocate(const std::string& name, const Layout& layout) {
   const PlaneKind kind = plane_kind(name);
   for (size_t i = 0; i < kind.components.size(); ++i) {
-    if (device_.info.shares_memory) {
+    bytes_ += layout.bytes();
+    if (in_host_pages_) {
       Channel channel(layout);
       channel.fill_padding(kind.outside);
       buffers_[name].emplace_back(device_.context, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, layout.bytes(),
@@ -116,7 +124,7 @@ Plane Buffers::download(const std::string& name, const Layout& layout) {
   Plane plane{name, {}};
   for (size_t i = 0; i < kind.components.size(); ++i) {
     cl::Buffer& buffer = buffers_.at(name)[i];
-    if (device_.info.shares_memory) {
+    if (in_host_pages_) {
       // Mapping makes the device's result visible to the host.
       void* mapped = device_.queue.enqueueMapBuffer(buffer, CL_TRUE, CL_MAP_READ, 0, layout.bytes());
       device_.queue.enqueueUnmapMemObject(buffer, mapped);
@@ -135,8 +143,9 @@ Plane Buffers::download(const std::string& name, const Layout& layout) {
 
 ViewOnDevice view_on_device(const Plan& plan, const Frame& frame, const View& view, Device::Impl& device) {
   const Layout layout(frame.width(), frame.height());
-  ViewOnDevice target{frame, view, layout, Layouts(plan, layout), Buffers(device)};
-  fill(target, plan);
+  ViewOnDevice target{frame, view, layout, Layouts(plan, layout), Buffers(device, device.info.shares_memory)};
+  upload_inputs(plan, target);
+  allocate_computed(plan, target);
   return target;
 }
 

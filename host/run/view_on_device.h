@@ -14,10 +14,11 @@
 
 namespace gloam {
 
-/// The planes of one view on the device. A device that shares memory uses the host's own pages.
+/// The planes of one view on the device. With `in_host_pages` planes have the host's own pages, which a device that shares memory uses in
+/// place.
 class Buffers {
  public:
-  explicit Buffers(Device::Impl& device) : device_(device) {}
+  Buffers(Device::Impl& device, bool in_host_pages) : device_(device), in_host_pages_(in_host_pages) {}
 
   void upload(const Plane& plane);
   /// One buffer with the layers one after another, each laid out like a plane.
@@ -25,6 +26,13 @@ class Buffers {
   void allocate(const std::string& name, const Layout& layout);
   /// Allocates a stack that is computed, filled with the value outside the image, which stays where nothing is computed.
   void allocate_stack(const std::string& name, const Layout& layout, size_t layers);
+
+  /// A plane in memory of the caller's.
+  void adopt(const std::string& name, std::vector<cl::Buffer> buffers) { buffers_[name] = std::move(buffers); }
+
+  bool has(const std::string& name) const { return buffers_.contains(name); }
+  /// Of all that was allocated.
+  unsigned long long bytes() const { return bytes_; }
 
   /// Lays a plane, which is never moved to the host, into the memory of an allocated one that no pass reads any more when it is written.
   void share(const std::string& name, const std::string& memory) { buffers_[name] = buffers_.at(memory); }
@@ -42,6 +50,8 @@ class Buffers {
 
  private:
   Device::Impl& device_;
+  bool in_host_pages_;
+  unsigned long long bytes_ = 0;
   std::map<std::string, std::vector<Channel>> host_;  // outlives the buffers that use its pages
   std::map<std::string, std::vector<cl::Buffer>> buffers_;
 };
@@ -76,6 +86,9 @@ struct OtherViews {
 
 /// Uploads a view's inputs, and allocates the planes that are computed.
 ViewOnDevice view_on_device(const Plan& plan, const Frame& frame, const View& view, Device::Impl& device);
+
+/// Allocates the planes that are computed and have no memory yet.
+void allocate_computed(const Plan& plan, ViewOnDevice& target);
 
 /// Moves the outputs of the view, computed or inputs, to `out`. A plane that came with the view, and that no pass makes here, is
 /// not a result.

@@ -114,6 +114,29 @@ void count_listed(const Plan& plan, ViewOnDevice& target, std::map<std::string, 
   for (const std::string& list : lists) listed[list] += target.buffers.length_of_list(list);
 }
 
+/// Calls a function; an error of OpenCL's names pass `k` of a target.
+template <typename Function>
+void told(const Plan& plan, const ViewOnDevice& target, size_t k, const Device::Impl& device,
+          const Function& function) {
+  try {
+    function();
+  } catch (const cl::Error& error) {
+    throw Error("{} on {}: {} ({})", plan.passes[target.passes[k]].label(), device.info.name, error.what(),
+                cl_error_name(error.err()));
+  }
+}
+
+/// Enqueues pass `k` of a target.
+Launch enqueue_pass(const Plan& plan, ViewOnDevice& target, size_t k, Device::Impl& device, const Tuning& tuning) {
+  const Pass& pass = plan.passes[target.passes[k]].pass;
+  constexpr cl_int nothing = 0;
+  for (const Binding& written : pass.writes) {
+    if (written.starts_empty)
+      device.queue.enqueueFillBuffer(target.buffers.of(written.plane).front(), nothing, 0, sizeof nothing);
+  }
+  return launch(device, target.kernels[k], pass, reduced(target.layout, pass.scale), tuning);
+}
+
 /// The launches of all passes of a plan, `repeat` times. Where the device tells their times afterwards, those of one repetition are waited
 /// for together, so that the device never waits for the host.
 class Launches {
@@ -138,16 +161,8 @@ class Launches {
 
   /// Pass `k` of a target.
   void launch(ViewOnDevice& target, size_t k) {
-    told(target, k, [&] {
-      const PlannedPass& planned = plan_.passes[target.passes[k]];
-      constexpr cl_int nothing = 0;
-      for (const Binding& written : planned.pass.writes) {
-        if (written.starts_empty)
-          device_.queue.enqueueFillBuffer(target.buffers.of(written.plane).front(), nothing, 0, sizeof nothing);
-      }
-      under_way_.push_back({&target, k,
-                            gloam::launch(device_, target.kernels[k], planned.pass,
-                                          reduced(target.layout, planned.pass.scale), tuning_)});
+    told(plan_, target, k, device_, [&] {
+      under_way_.push_back({&target, k, enqueue_pass(plan_, target, k, device_, tuning_)});
     });
     if (!ahead_) finish_all();
   }
@@ -161,20 +176,9 @@ class Launches {
 
   int warm_ups() const { return options_.repeat > 1 ? 1 : 0; }
 
-  /// Calls a function; an error of OpenCL's names the pass.
-  template <typename Function>
-  void told(const ViewOnDevice& target, size_t k, const Function& function) {
-    try {
-      function();
-    } catch (const cl::Error& error) {
-      throw Error("{} on {}: {} ({})", plan_.passes[target.passes[k]].label(), device_.info.name, error.what(),
-                  cl_error_name(error.err()));
-    }
-  }
-
   void finish_all() {
     for (const UnderWay& each : under_way_) {
-      told(*each.target, each.k, [&] {
+      told(plan_, *each.target, each.k, device_, [&] {
         const Launched launched = finish(device_, each.launch);
         if (!counts_) return;
         PassTime& times = each.target->times[each.k];
@@ -316,6 +320,15 @@ class KeyViewsRun {
 };
 
 }  // namespace
+
+void enqueue_passes(const Plan& plan, std::vector<ViewOnDevice>& targets, Device::Impl& device,
+                    const RunOptions& options) {
+  const Tuning tuning = tuning_for(device.info, options);
+  add_kernels(plan, targets, device, options, tuning.lanes);
+  for_each_launch(plan, targets, [&](ViewOnDevice& target, size_t k) {
+    told(plan, target, k, device, [&] { enqueue_pass(plan, target, k, device, tuning); });
+  });
+}
 
 void run_all_views(const Plan& plan, const Frame& frame, Device::Impl& device, const RunOptions& options,
                    RunResult& result, Counted& counted) {

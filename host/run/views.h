@@ -3,6 +3,7 @@
 
 #include "gloam/run.h"
 #include "run/device_impl.h"
+#include "run/view_on_device.h"
 
 namespace gloam {
 
@@ -14,5 +15,9 @@ struct Counted {
 /// Computes views together if they read one another, else one after another. Adds to `result` and `counted`.
 void run_all_views(const Plan& plan, const Frame& frame, Device::Impl& device, const RunOptions& options,
                    RunResult& result, Counted& counted);
+
+/// Enqueues all passes of views that are on the device together, and waits for none of them.
+void enqueue_passes(const Plan& plan, std::vector<ViewOnDevice>& targets, Device::Impl& device,
+                    const RunOptions& options);
 
 }  // namespace gloam

@@ -133,7 +133,7 @@ PAGES = {
                  "bench -o out/device": (f"bench -o out/device {SMALL}", MINUTES)},
         check="[ -s out/device/times.json ] && [ -s out/device/report.html ] && [ -s stress.json ]"),
     "docs/python.md": Page(
-        needs=("cv2", "matplotlib"),
+        needs=("cv2", "matplotlib", "pyopencl"),
         check="""for text in 'beside the box 0\\.' 'far from it 1\\.00' "UsageError: no technique 'gtoa' (did you mean 'gtao'?)" \\
                 "no parameter 'radus' (did you mean 'radius'?)" "Error: plane 'depth' has the dtype float64" "MissingPlanes: sssr: needs 'color'" \\
                 'Error: camera: fx is nan' '^1004 ' 'frame | radius: none is given'; do

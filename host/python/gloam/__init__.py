@@ -14,8 +14,9 @@ Whatever cannot be done raises `gloam.Error`, whose text is one sentence: what i
 from . import _gloam
 from ._auto import AutoResult, auto
 from ._compare import compare
+from ._device_memory import DeviceLayout, DevicePlane, device_layout, enqueue
 from ._files import Run, Sequence, Written, read, write
-from ._gloam import Camera, Device, DeviceInfo, Error, Frame, MissingPlanes, UsageError, devices
+from ._gloam import Camera, Device, DeviceInfo, Enqueued, Error, Frame, MissingPlanes, UsageError, devices
 from ._pick import pick
 from ._run import Pass, Result, run
 from ._scenes import Scene, capture, reference, scenes
@@ -25,8 +26,8 @@ from ._words import Note
 __version__ = _gloam.version
 
 __all__ = [
-    "AutoResult", "Camera", "Device", "DeviceInfo", "Error", "Frame", "MissingPlanes", "Note", "Parameter", "Pass", "Result", "Run", "Scene", "Sequence",
-    "Technique", "UsageError", "Written", "auto", "capture", "compare", "devices", "pick", "read", "reference", "run", "scenes", "techniques", "write",
+    "AutoResult", "Camera", "Device", "DeviceInfo", "DeviceLayout", "DevicePlane", "Enqueued", "Error", "Frame", "MissingPlanes", "Note", "Parameter", "Pass", "Result", "Run", "Scene", "Sequence",
+    "Technique", "UsageError", "Written", "auto", "capture", "compare", "device_layout", "devices", "enqueue", "pick", "read", "reference", "run", "scenes", "techniques", "write",
 ]
 
 for _public in __all__:

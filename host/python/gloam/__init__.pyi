@@ -64,7 +64,28 @@ class DeviceInfo:
     def largest_buffer(self) -> int: ...
 
 class Device(DeviceInfo):
-    def __init__(self, text: str = "") -> None: ...
+    def __init__(self, text: str = "", queue: Any = None) -> None: ...
+
+class DeviceLayout(NamedTuple):
+    pitch: int
+    offset: int
+    bytes: int
+
+class DevicePlane(NamedTuple):
+    memory: Any
+    offset: int = 0
+    pitch: int = 0
+    step: int = 4
+    is_clean: bool = False
+
+class Enqueued:
+    @property
+    def int_ptr(self) -> int: ...
+    @property
+    def copied(self) -> List[str]: ...
+    @property
+    def device_bytes(self) -> int: ...
+    def wait(self) -> None: ...
 
 class Frame:
     @property
@@ -192,6 +213,10 @@ def run(technique: str, frame: Union[Frame, Path, _Sequence[Path], None] = None,
         fov: Optional[float] = None, views: Union[str, List[str], None] = None, device: Union[Device, str, None] = None,
         settings: Optional[Dict[str, Setting]] = None, normal_space: Optional[str] = None, normal_range: Optional[str] = None,
         normal_axes: Optional[str] = None, **keywords: Any) -> Result: ...
+def device_layout(width: int, height: int) -> DeviceLayout: ...
+def enqueue(technique: str, planes: Dict[str, Union[DevicePlane, List[DevicePlane]]], results: Dict[str, Union[DevicePlane, List[DevicePlane]]], *,
+            size: Tuple[int, int], camera: Union[Camera, List[Camera]], device: Device, wait_for: _Sequence[Any] = (),
+            settings: Optional[Dict[str, Setting]] = None, **keywords: Any) -> Enqueued: ...
 def auto(frame: Union[Frame, Path, _Sequence[Path], None] = None, *, budget: Optional[float] = None, error: Optional[float] = None,
          mask: Optional[str] = None, measure: bool = False, composite: bool = False, color_holds: Optional[str] = None,
          ambient: Optional[Point] = None, camera: Union[Camera, List[Camera], Path, None] = None, fov: Optional[float] = None,

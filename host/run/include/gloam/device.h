@@ -57,7 +57,8 @@ class Device {
   const DeviceInfo& info() const;
 
   struct Impl;
-  Impl& impl();  ///< for the library
+  Impl& impl();                                 ///< for the library
+  explicit Device(std::unique_ptr<Impl> impl);  ///< for the library
 
  private:
   std::unique_ptr<Impl> impl_;
