@@ -15,6 +15,7 @@
 #include "gloam/option.h"
 #include "run/driver.h"
 #include "run/kept_folders.h"
+#include "run/tuning.h"
 #include "stress/frames.h"
 #include "technique/data_files.h"
 
@@ -83,10 +84,10 @@ void take(const std::string& text, Diagnosis& diagnosis) {
   if (line.contains("kind"))
     diagnosis.tests.push_back(
         {line.at("kind"), line.at("technique"), line.at("why"), line.at("held"), line.at("same_bits")});
-  if (line.contains("best")) diagnosis.record.tuning = Tuning{line.at("best").at("lanes"), line.at("best").at("group")};
+  if (line.contains("best")) diagnosis.record.tuning = tuning_in(line.at("best"));
   if (line.contains("timed")) {
     for (const Json& one : line.at("timed"))
-      diagnosis.timed.push_back({{one.at("lanes"), one.at("group")}, one.at("ms")});
+      diagnosis.timed.push_back({tuning_in(one).value(), one.at("ms"), one.at("ms_of_others")});
   }
 }
 
@@ -134,9 +135,8 @@ void examine_device_here(const std::string& name, bool measures) {
     say_to_parent({{"goes_on", true}});
   });
   Json timed = Json::array();
-  for (const Timed& one : measured.timed)
-    timed.push_back({{"lanes", one.tuning.lanes}, {"group", one.tuning.group}, {"ms", one.ms}});
-  say_to_parent({{"best", {{"lanes", measured.best.lanes}, {"group", measured.best.group}}}, {"timed", timed}});
+  for (const Timed& one : measured.timed) timed.push_back(document_of(one));
+  say_to_parent({{"best", gloam::document_of(measured.best)}, {"timed", timed}});
 }
 
 Diagnosis diagnose(const DeviceInfo& info, bool again, const std::function<void()>& goes_on) {

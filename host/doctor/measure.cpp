@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
+#include "base/lists.h"
 #include "gloam/run.h"
+#include "run/device_impl.h"
+#include "run/tuning.h"
 #include "stress/frames.h"
 #include "stress/outputs.h"
 
@@ -16,58 +20,88 @@ constexpr int timed_width = 960,
 constexpr int rounds = 5;
 constexpr double hopeless = 1.5;   ///< of the best time: after the first round, such a candidate drops out
 constexpr double worth_it = 0.97;  ///< share of the usual tuning's time that another must not exceed to take its place
+/// The technique whose kernel needs the most registers (bench/README.md, instructions on GPUs).
+constexpr const char* needs_most_registers = "evidence";
 
-/// A candidate and its times: one for each round that it took part in.
+using Times = std::vector<double>;
+
+/// A candidate and its times: one for each round that it took part in, of either kind of kernel.
 struct Candidate {
   Tuning tuning;
-  std::vector<double> ms;
-  double best() const {
-    return ms.empty() ? std::numeric_limits<double>::infinity() : *std::min_element(ms.begin(), ms.end());
-  }
+  Times search, others;
 };
 
-bool is_faster(const Candidate& a, const Candidate& b) { return a.best() < b.best(); }
+double best(const Times& times) {
+  return times.empty() ? std::numeric_limits<double>::infinity() : *std::min_element(times.begin(), times.end());
+}
+
+/// Of all kernels.
+double best(const Candidate& one) { return best(one.search) + best(one.others); }
+
+/// While it lives, a device runs with another tuning.
+class Tuned {
+ public:
+  Tuned(Device& device, const Tuning& tuning) : info_(device.impl().info), before_(info_.tuning) {
+    info_.tuning = tuning;
+  }
+  ~Tuned() { info_.tuning = before_; }
+
+ private:
+  DeviceInfo& info_;
+  Tuning before_;
+};
+
+void add_times(const RunResult& result, const Plan& plan, Candidate& candidate) {
+  double search = 0, others = 0;
+  for (size_t k = 0; k < result.passes.size(); ++k)
+    (plan.passes[k].pass.footprint.is_wide ? search : others) += result.passes[k].ms.front();
+  candidate.search.push_back(search);
+  candidate.others.push_back(others);
+}
 
 /// Several rounds in which the candidates take turns: what disturbs one disturbs all. The first of them is the usual one.
 std::vector<Candidate> times_of(const std::vector<Tuning>& tunings, const Plan& plan, const Frame& frame,
                                 Device& device, const std::function<void()>& goes_on) {
   std::vector<Candidate> candidates;
-  for (const Tuning& tuning : tunings) candidates.push_back({tuning, {}});
+  for (const Tuning& tuning : tunings) candidates.push_back({tuning, {}, {}});
   for (int round = -1; round < rounds; ++round) {  // the first one compiles
-    const double best = std::min_element(candidates.begin(), candidates.end(), is_faster)->best();
+    double fastest = std::numeric_limits<double>::infinity();
+    for (const Candidate& one : candidates) fastest = std::min(fastest, best(one));
     for (Candidate& one : candidates) {
-      if (!one.ms.empty() && one.best() > hopeless * best) continue;
-      const RunResult result = run(plan, frame, device, {.lanes = one.tuning.lanes, .group = one.tuning.group});
-      if (round >= 0) one.ms.push_back(result.total_ms.front());
+      if (!one.search.empty() && best(one) > hopeless * fastest) continue;
+      const Tuned tuned(device, one.tuning);
+      const RunResult result = run(plan, frame, device);
+      if (round >= 0) add_times(result, plan, one);
       goes_on();
     }
   }
   return candidates;
 }
 
-/// Whether a candidate is faster than the usual one by more than noise: at its best, and in most rounds.
-bool is_worth_it(const Candidate& one, const Candidate& usual) {
-  const size_t common = std::min(one.ms.size(), usual.ms.size());
+/// Whether times are shorter than the usual ones by more than noise: at their best, and in most rounds.
+bool is_worth_it(const Times& times, const Times& usual) {
+  const size_t common = std::min(times.size(), usual.size());
   size_t wins = 0;
-  for (size_t i = 0; i < common; ++i) wins += one.ms[i] < worth_it * usual.ms[i];
-  return one.best() < worth_it * usual.best() && 4 * wins > 3 * common;
+  for (size_t i = 0; i < common; ++i) wins += times[i] < worth_it * usual[i];
+  return best(times) < worth_it * best(usual) && 4 * wins > 3 * common;
 }
 
-/// The fastest that is worth it, else the usual one.
-const Candidate& best_of(const std::vector<Candidate>& candidates) {
-  const Candidate* best = &candidates.front();
+/// The candidate whose times of a kind are the shortest and worth it, else the usual one.
+const Tuning& best_by(Times Candidate::*kind, const std::vector<Candidate>& candidates) {
+  const Candidate* fastest = &candidates.front();
   for (const Candidate& one : candidates) {
-    if (is_worth_it(one, candidates.front()) && is_faster(one, *best)) best = &one;
+    if (is_worth_it(one.*kind, candidates.front().*kind) && best(one.*kind) < best(fastest->*kind)) fastest = &one;
   }
-  return *best;
+  return fastest->tuning;
 }
 
 /// The usual number of lanes, and those next to it: what is further off has never been the fastest, and takes long to compile.
 std::vector<Tuning> lane_candidates(const Tuning& usual) {
   const auto at = std::find(lane_widths.begin(), lane_widths.end(), usual.lanes);
   std::vector<Tuning> all = {usual};
-  if (at != lane_widths.begin()) all.push_back({*(at - 1), usual.group});
-  if (at != lane_widths.end() && at + 1 != lane_widths.end()) all.push_back({*(at + 1), usual.group});
+  const auto add = [&](int lanes) { all.push_back({lanes, usual.search, usual.others}); };
+  if (at != lane_widths.begin()) add(*(at - 1));
+  if (at != lane_widths.end() && at + 1 != lane_widths.end()) add(*(at + 1));
   return all;
 }
 
@@ -75,28 +109,56 @@ std::vector<Tuning> lane_candidates(const Tuning& usual) {
 std::vector<Tuning> group_candidates(const Tuning& best, bool is_cpu) {
   std::vector<Tuning> all = {best};
   for (const int group : is_cpu ? std::vector{4, 16, 64} : std::vector{0, 32, 64, 128, 256}) {
-    if (group != best.group) all.push_back({best.lanes, group});
+    if (group == best.search.group && group == best.others.group) continue;
+    all.push_back({best.lanes, {group, best.search.registers}, {group, best.others.registers}});
   }
   return all;
 }
 
+/// A limit that a kernel does not reach changes nothing; one far below makes it keep values in memory.
+std::vector<Tuning> register_candidates(const Tuning& best) {
+  std::vector<Tuning> all = {best};
+  for (const int registers : {0, 48, 64, 80, 96}) {
+    if (registers != best.search.registers) all.push_back({best.lanes, {best.search.group, registers}, best.others});
+  }
+  return all;
+}
+
+void add_timed(const std::vector<Candidate>& candidates, Measurement& measurement) {
+  for (const Candidate& one : candidates) measurement.timed.push_back({one.tuning, best(one.search), best(one.others)});
+}
+
 }  // namespace
+
+nlohmann::ordered_json document_of(const Timed& timed) {
+  nlohmann::ordered_json document = gloam::document_of(timed.tuning);
+  document["ms"] = timed.ms;
+  document["ms_of_others"] = timed.ms_of_others;
+  return document;
+}
 
 Measurement measure_tuning(const std::string& technique, Device& device, const std::function<void()>& goes_on) {
   Frame frame = stress::shoot(stress::perspective(timed_width, timed_height), stress::room());
-  const Plan plan = stress::plan_for(PlanRequest{.outputs = {technique}, .filter = "none"}, frame);
+  const Plan plan = stress::plan_for(PlanRequest{.outputs = {technique}}, frame);
   const Tuning usual = device.info().usual;
+  Measurement measurement;
+  Tuning& best = measurement.best;
   const std::vector<Candidate> by_lanes = times_of(lane_candidates(usual), plan, frame, device, goes_on);
-  const Tuning best_lanes = best_of(by_lanes).tuning;
+  best = best_by(&Candidate::search, by_lanes);
   const std::vector<Candidate> by_group =
-      times_of(group_candidates(best_lanes, device.info().type == "cpu"), plan, frame, device, goes_on);
-  Measurement measurement{.best = best_of(by_group).tuning};
-  for (const Candidate& one : by_group) measurement.timed.push_back({one.tuning, one.best()});
+      times_of(group_candidates(best, device.info().type == "cpu"), plan, frame, device, goes_on);
+  best.search = best_by(&Candidate::search, by_group).search;
+  best.others = best_by(&Candidate::others, by_group).others;
+  add_timed(by_group, measurement);
   for (const Candidate& one : by_lanes) {
-    if (one.tuning.lanes != best_lanes.lanes) measurement.timed.push_back({one.tuning, one.best()});
+    if (one.tuning.lanes != best.lanes) add_timed({one}, measurement);
   }
   std::stable_sort(measurement.timed.begin(), measurement.timed.end(),
-                   [](const Timed& a, const Timed& b) { return a.ms < b.ms; });
+                   [](const Timed& a, const Timed& b) { return a.ms + a.ms_of_others < b.ms + b.ms_of_others; });
+  if (usual.search.registers > 0 && contains(technique_names(), needs_most_registers)) {
+    const Plan most = stress::plan_for(PlanRequest{.outputs = {needs_most_registers}}, frame);
+    best.search = best_by(&Candidate::search, times_of(register_candidates(best), most, frame, device, goes_on)).search;
+  }
   return measurement;
 }
 

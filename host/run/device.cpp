@@ -21,6 +21,7 @@
 #include "run/device_record.h"
 #include "run/driver.h"
 #include "run/kept_folders.h"
+#include "run/tuning.h"
 #include "technique/data_files.h"
 #include "technique/kernel_sources.h"
 
@@ -35,11 +36,11 @@ struct KnownDevice {
 
 /// The first row of the table that fits a device. `vector_width`: floats per vector that the driver prefers.
 KnownDevice known_device(const DeviceInfo& info, int vector_width) {
-  static const nlohmann::json table = nlohmann::json::parse(data_files().at("devices.json"));
-  for (const nlohmann::json& row : table) {
+  static const nlohmann::ordered_json table = nlohmann::ordered_json::parse(data_files().at("devices.json"));
+  for (const nlohmann::ordered_json& row : table) {
     const bool fits = row.value("platform", info.platform) == info.platform &&
                       row.value("type", info.type) == info.type && row.value("vector", 0) <= vector_width;
-    if (fits) return {{row.at("lanes"), row.at("group")}, row.value("keeps_kernels", false)};
+    if (fits) return {tuning_in(row).value(), row.value("keeps_kernels", false)};
   }
   return {};
 }

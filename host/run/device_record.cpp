@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
 #include "base/hash.h"
 #include "base/json_text.h"
 #include "run/kept_folders.h"
+#include "run/tuning.h"
 #include "technique/kernel_sources.h"
 
 namespace gloam {
@@ -26,7 +26,7 @@ std::optional<double> number_of(const Json& document, const char* name) {
 
 Json document_of(const DeviceInfo& info, const DeviceRecord& record) {
   Json tuning;
-  if (record.tuning) tuning = {{"lanes", record.tuning->lanes}, {"group", record.tuning->group}};
+  if (record.tuning) tuning = gloam::document_of(*record.tuning);
   return {{"device", key_of(info)},
           {"day", record.day},
           {"kernels", record.kernels},
@@ -35,15 +35,6 @@ Json document_of(const DeviceInfo& info, const DeviceRecord& record) {
           {"tuning", tuning},
           {"cold_ms", or_null(record.cold_ms)},
           {"warm_ms", or_null(record.warm_ms)}};
-}
-
-/// The tuning, if kernels can run with it.
-std::optional<Tuning> tuning_in(const Json& document) {
-  if (!document.at("tuning").is_object()) return {};
-  const Tuning tuning{document.at("tuning").at("lanes"), document.at("tuning").at("group")};
-  const bool is_possible = std::count(lane_widths.begin(), lane_widths.end(), tuning.lanes) && tuning.group >= 0 &&
-                           tuning.group <= most_per_group;
-  return is_possible ? std::optional(tuning) : std::nullopt;
 }
 
 }  // namespace
@@ -68,7 +59,7 @@ std::optional<DeviceRecord> find_record(const DeviceInfo& info) {
     record.day = document.at("day");
     record.kernels = document.at("kernels");
     record.failures = document.at("failures").get<std::vector<std::string>>();
-    record.tuning = tuning_in(document);
+    record.tuning = tuning_in(document.at("tuning"));
     record.cold_ms = number_of(document, "cold_ms");
     record.warm_ms = number_of(document, "warm_ms");
     return record;

@@ -7,17 +7,18 @@
 
 namespace gloam {
 
-/// Lanes and group size: as the options state, else what suits the device.
+/// Lanes and group sizes: as the options state, else what suits the device.
 Tuning tuning_for(const DeviceInfo& info, const RunOptions& options);
 
 /// What the compiler is told of a pass's kernel.
-std::string build_options(const PlannedPass& planned, const DeviceInfo& info, const RunOptions& options, int lanes);
+std::string build_options(const PlannedPass& planned, const DeviceInfo& info, const RunOptions& options,
+                          const Tuning& tuning);
 
 /// The whole text of a pass's kernel, as it is compiled.
 std::string kernel_text(const PlannedPass& planned, const Layouts& layouts);
 
 /// Builds a pass's kernel. Throws Error for a missing kernel, and for build errors (with the log).
 cl::Kernel build_kernel(const PlannedPass& planned, const Layouts& layouts, Device::Impl& device,
-                        const RunOptions& options, int lanes);
+                        const RunOptions& options, const Tuning& tuning);
 
 }  // namespace gloam

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/cpu_time.h"
+#include "run/tuning.h"
 
 namespace gloam {
 namespace {
@@ -48,7 +49,7 @@ size_t columns_of_strip(const DeviceInfo& info, const Pass& pass, size_t columns
 
 /// The tuning's group, or less where a device, or a kernel with many registers, takes no more: what was the fastest for one kernel may
 /// be too much for another.
-size_t most_per_group_of(const cl::Kernel& kernel, const Device::Impl& device, const Tuning& tuning) {
+size_t most_per_group_of(const cl::Kernel& kernel, const Device::Impl& device, const KernelTuning& tuning) {
   return std::min(size_t(tuning.group), kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device.device));
 }
 
@@ -75,7 +76,8 @@ Launch launch(Device::Impl& device, cl::Kernel& kernel, const Pass& pass, const 
   // Padding that a caller's memory may have beyond whole rows of lanes is not computed.
   const size_t columns = size_t(Layout(layout.width, 1).pitch / tuning.lanes),
                rows = items_down(device.info, pass, layout);
-  const cl::NDRange group = group_size(device.info, columns, rows, most_per_group_of(kernel, device, tuning));
+  const cl::NDRange group =
+      group_size(device.info, columns, rows, most_per_group_of(kernel, device, of_kind(tuning, pass)));
   const size_t strip = columns_of_strip(device.info, pass, columns, group, tuning.lanes);
   const size_t rows_left = group.dimensions() == 2 ? rows % group[1] : 0;
   for (size_t from = 0; from < columns; from += strip)

@@ -37,7 +37,7 @@ void prepare(const Plan& plan, Device& device, const RunOptions& options) {
   const DriverAtWork driver;
   const Layouts layouts(plan, Layout(1, 1));
   for (const PlannedPass& planned : plan.passes)
-    build_kernel(planned, layouts, impl, options, tuning_for(impl.info, options).lanes);
+    build_kernel(planned, layouts, impl, options, tuning_for(impl.info, options));
 }
 
 RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOptions& options) {

@@ -48,9 +48,9 @@ bool runs_on(const PlannedPass& planned, const ViewOnDevice& target, size_t numb
 }
 
 void add_kernel(const Plan& plan, size_t k, ViewOnDevice& target, const OtherViews& others, Device::Impl& device,
-                const RunOptions& options, int lanes) {
+                const RunOptions& options, const Tuning& tuning) {
   const PlannedPass& planned = plan.passes[k];
-  target.kernels.push_back(build_kernel(planned, target.layouts, device, options, lanes));
+  target.kernels.push_back(build_kernel(planned, target.layouts, device, options, tuning));
   set_arguments(target.kernels.back(), plan, planned, device, target, others, options);
   target.passes.push_back(k);
   target.times.push_back({target.view.name, planned.label(), {}, {}});
@@ -59,11 +59,11 @@ void add_kernel(const Plan& plan, size_t k, ViewOnDevice& target, const OtherVie
 
 /// Finds which passes run on which views, and builds their kernels.
 void add_kernels(const Plan& plan, std::vector<ViewOnDevice>& targets, Device::Impl& device, const RunOptions& options,
-                 int lanes) {
+                 const Tuning& tuning) {
   for (size_t k = 0; k < plan.passes.size(); ++k) {
     for (size_t i = 0; i < targets.size(); ++i) {
       const OtherViews others{.other = targets.size() == 2 ? &targets[1 - i] : nullptr};
-      if (runs_on(plan.passes[k], targets[i], i)) add_kernel(plan, k, targets[i], others, device, options, lanes);
+      if (runs_on(plan.passes[k], targets[i], i)) add_kernel(plan, k, targets[i], others, device, options, tuning);
     }
   }
 }
@@ -217,7 +217,7 @@ void run_views(const Plan& plan, const Frame& frame, const std::vector<const Vie
                const RunOptions& options, const Tuning& tuning, RunResult& result, Counted& counted) {
   std::vector<ViewOnDevice> targets;
   for (const View* view : views) targets.push_back(view_on_device(plan, frame, *view, device));
-  add_kernels(plan, targets, device, options, tuning.lanes);
+  add_kernels(plan, targets, device, options, tuning);
   size_t count_of_kernels = 0;
   for (const ViewOnDevice& target : targets) count_of_kernels += target.kernels.size();
   Launches launches(plan, device, options, tuning, int(count_of_kernels));
@@ -239,7 +239,7 @@ class KeyViewsRun {
         frame_(frame),
         device_(device),
         options_(options),
-        lanes_(tuning.lanes),
+        tuning_(tuning),
         counted_(counted),
         roles_(key_view_roles(int(frame.views.size()), spacing)),
         launches_(plan, device, options, tuning, count_of_kernels()),
@@ -284,12 +284,12 @@ class KeyViewsRun {
 
   void compute(ViewOnDevice& target, const OtherViews& others) {
     for (size_t k = 0; k < plan_.passes.size(); ++k) {
-      if (runs_on(plan_.passes[k], target, 0)) add_kernel(plan_, k, target, others, device_, options_, lanes_);
+      if (runs_on(plan_.passes[k], target, 0)) add_kernel(plan_, k, target, others, device_, options_, tuning_);
     }
     launches_.repeat([&] {
       for (size_t k = 0; k < target.kernels.size(); ++k) launches_.launch(target, k);
     });
-    count(plan_, target, lanes_, target.is_key_view, counted_);
+    count(plan_, target, tuning_.lanes, target.is_key_view, counted_);
   }
 
   int count_of_kernels() const {
@@ -311,7 +311,7 @@ class KeyViewsRun {
   const Frame& frame_;
   Device::Impl& device_;
   const RunOptions& options_;
-  const int lanes_;
+  const Tuning tuning_;
   Counted& counted_;
   std::vector<KeyViewRole> roles_;
   Launches launches_;
@@ -324,7 +324,7 @@ class KeyViewsRun {
 void enqueue_passes(const Plan& plan, std::vector<ViewOnDevice>& targets, Device::Impl& device,
                     const RunOptions& options) {
   const Tuning tuning = tuning_for(device.info, options);
-  add_kernels(plan, targets, device, options, tuning.lanes);
+  add_kernels(plan, targets, device, options, tuning);
   for_each_launch(plan, targets, [&](ViewOnDevice& target, size_t k) {
     told(plan, target, k, device, [&] { enqueue_pass(plan, target, k, device, tuning); });
   });

@@ -42,7 +42,7 @@ struct Kernels {
 
 /// Precise mathematics on a device that has all options.
 std::string options_of(const PlannedPass& planned, const RunOptions& options) {
-  return build_options(planned, {.rounds_correctly = true}, options, options.lanes);
+  return build_options(planned, {.rounds_correctly = true}, options, {.lanes = options.lanes});
 }
 
 /// Bytes of a kernel's arguments in double precision and with pointers of 64 bits.

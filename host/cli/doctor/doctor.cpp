@@ -20,9 +20,20 @@ struct DoctorFlags {
   JsonFlag json;
 };
 
+std::string in_words(const KernelTuning& tuning) {
+  return (tuning.group == 0 ? "groups as the driver chooses" : fmt::format("groups of {}", tuning.group)) +
+         (tuning.registers == 0 ? "" : fmt::format(" and at most {} registers", tuning.registers));
+}
+
+std::string lanes_in_words(const Tuning& tuning) {
+  return fmt::format("{} {}", tuning.lanes, tuning.lanes == 1 ? "lane" : "lanes");
+}
+
+/// "16 lanes, groups of 16", or of each kind of kernel where the kinds differ.
 std::string in_words(const Tuning& tuning) {
-  return fmt::format("{} {}, {}", tuning.lanes, tuning.lanes == 1 ? "lane" : "lanes",
-                     tuning.group == 0 ? "groups as the driver chooses" : fmt::format("groups of {}", tuning.group));
+  const std::string search = in_words(tuning.search), others = in_words(tuning.others);
+  if (search == others) return fmt::format("{}, {}", lanes_in_words(tuning), search);
+  return fmt::format("{}, {} for kernels that look around, {} for the others", lanes_in_words(tuning), search, others);
 }
 
 /// "holds: 14 of 14 self-tests, 13 with the known bits"
@@ -45,7 +56,8 @@ void print(const Diagnosis& diagnosis) {
   if (record.tuning) {
     std::vector<std::string> times;
     for (const doctor::Timed& one : diagnosis.timed)
-      times.push_back(fmt::format("{} {:.2f} ms", in_words(one.tuning), one.ms));
+      times.push_back(fmt::format("{}, {} {:.2f} + {:.2f} ms", lanes_in_words(one.tuning), in_words(one.tuning.search),
+                                  one.ms, one.ms_of_others));
     fmt::print("  fastest: {} ({})\n", in_words(*record.tuning),
                times.empty() ? "measured before; --again measures anew"
                              : fmt::format("measured now: {}", fmt::join(times, "; ")));
@@ -68,14 +80,15 @@ Json document_of(const Diagnosis& diagnosis) {
                      {"held", test.held},
                      {"same_bits", test.same_bits},
                      {"why", test.why}});
-  for (const doctor::Timed& one : diagnosis.timed)
-    timed.push_back({{"lanes", one.tuning.lanes}, {"group", one.tuning.group}, {"ms", one.ms}});
+  for (const doctor::Timed& one : diagnosis.timed) timed.push_back(doctor::document_of(one));
   return {{"device", diagnosis.info.name},
           {"platform", diagnosis.info.platform},
           {"driver", diagnosis.info.driver},
           {"held", record.held},
           {"lanes", tuning.lanes},
-          {"group", tuning.group},
+          {"group", tuning.search.group},
+          {"group_of_others", tuning.others.group},
+          {"registers", tuning.search.registers},
           {"cold_ms", or_null(record.cold_ms)},
           {"warm_ms", or_null(record.warm_ms)},
           {"lacks", diagnosis.lacks},

@@ -8,10 +8,18 @@
 
 namespace gloam {
 
+/// What suits one kind of kernel on a device.
+struct KernelTuning {
+  int group = 0;  ///< most work-items per work-group; 0: the driver chooses
+  int registers =
+      0;  ///< most registers per work-item, where the driver takes a limit (NVIDIA's); 0: the compiler chooses
+};
+
 /// How an image is laid out over the work-items of a device. It changes times, and in fast mathematics the last bits.
 struct Tuning {
-  int lanes = 1;  ///< pixels per work-item: the float vector width on PoCL's CPUs
-  int group = 0;  ///< most work-items per work-group; 0: the driver chooses
+  int lanes = 1;        ///< pixels per work-item: the float vector width on PoCL's CPUs
+  KernelTuning search;  ///< of kernels that read far around each pixel (`Footprint::is_wide`)
+  KernelTuning others;
 };
 
 struct DeviceInfo {

@@ -1,0 +1,33 @@
+#include "run/tuning.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace gloam {
+
+nlohmann::ordered_json document_of(const Tuning& tuning) {
+  return {{"lanes", tuning.lanes},
+          {"group", tuning.search.group},
+          {"group_of_others", tuning.others.group},
+          {"registers", tuning.search.registers}};
+}
+
+std::optional<Tuning> tuning_in(const nlohmann::ordered_json& document) {
+  if (!document.is_object()) return {};
+  const int group = document.at("group");
+  const Tuning tuning{
+      document.at("lanes"), {group, document.value("registers", 0)}, {document.value("group_of_others", group), 0}};
+  const auto is_possible = [](const KernelTuning& kind) {
+    return kind.group >= 0 && kind.group <= most_per_group && kind.registers >= 0;
+  };
+  if (!std::count(lane_widths.begin(), lane_widths.end(), tuning.lanes) || !is_possible(tuning.search) ||
+      !is_possible(tuning.others))
+    return {};
+  return tuning;
+}
+
+const KernelTuning& of_kind(const Tuning& tuning, const Pass& pass) {
+  return pass.footprint.is_wide ? tuning.search : tuning.others;
+}
+
+}  // namespace gloam

@@ -1,0 +1,21 @@
+// Tunings as JSON, in the table of devices and in what `gloam doctor` keeps.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+
+#include "gloam/device.h"
+#include "gloam/technique.h"
+
+namespace gloam {
+
+/// {"lanes": 1, "group": 256, "group_of_others": 256, "registers": 64}
+nlohmann::ordered_json document_of(const Tuning& tuning);
+
+/// The tuning of such an object, in which the last two may be missing; none if kernels cannot run with it.
+std::optional<Tuning> tuning_in(const nlohmann::ordered_json& document);
+
+/// What suits a pass's kernel.
+const KernelTuning& of_kind(const Tuning& tuning, const Pass& pass);
+
+}  // namespace gloam
