@@ -25,11 +25,20 @@ static inline void store_word(uint word, WANTED_OUT wanted, Frame f, int k) {
 
 #ifdef CELL
 #if CELL == 1
-#define SOURCE_AT(x) load(source, index_of(frame, x, ROW_Y))
+#define BITS_OF_WORD(word) \
+  for (int i = 0; i < 32; i += LANES) word |= bit_of_each_lane(load(source, index_of(frame, 32 * k + i, ROW_Y)) > 0) << i;
+#elif 32 % CELL == 0
+// Whole cells lie in a word.
+#define BITS_OF_WORD(word)                                                    \
+  const int first = index_of(other, 32 * k / CELL, ROW_Y / CELL);             \
+  _Pragma("unroll") for (int c = 0; c < 32 / CELL; ++c)                       \
+    word |= source[first + c] > 0 ? (0xffffffffu >> (32 - CELL)) << (c * CELL) : 0;
 #else
-// Lanes beyond the image read its last pixel.
-#define SOURCE_AT(x) \
-  gather(source, index_of(other, 0, ROW_Y / CELL) + min((x) + IOTA, (integer)(frame.width - 1)) / CELL)
+// Pixels beyond the image read its last one.
+#define BITS_OF_WORD(word)                                                    \
+  const int row = index_of(other, 0, ROW_Y / CELL);                           \
+  for (int i = 0; i < 32; ++i)                                                \
+    word |= source[row + min(32 * k + i, frame.width - 1) / CELL] > 0 ? 1u << i : 0;
 #endif
 
 #if WITH_ASKED
@@ -50,7 +59,7 @@ static inline void store_word(uint word, WANTED_OUT wanted, Frame f, int k) {
 kernel void mask_bits(ARGUMENTS) {
   RETURN_UNLESS_A_WORD_BEGINS(frame)
   uint word = 0;
-  for (int i = 0; i < 32; i += LANES) word |= bit_of_each_lane(SOURCE_AT(32 * k + i) > 0) << i;
+  BITS_OF_WORD(word)
   word = WHOLE_ROWS(word);
   store_word(word & ASKED_WORD, wanted, frame, k);
   STORE_REST(~word & ASKED_WORD);

@@ -19,10 +19,17 @@ static inline uint bits_in_frame(Frame f, int k) {
   return left >= 32 ? 0xffffffffu : (1u << left) - 1;
 }
 
-// Bit i: the mask of lane i.
+// Bit i: the mask of lane i. In one instruction where there is one; besides, an AMD EPYC takes 40 ns for a constant chosen by a mask of 16 lanes
+// none of which is set.
 static inline uint bit_of_each_lane(mask m) {
 #if LANES == 1
   return m ? 1u : 0u;
+#elif LANES == 16 && defined(__AVX512DQ__) && !defined(REAL_DOUBLE)
+  return (ushort)__builtin_ia32_cvtd2mask512(m);
+#elif LANES == 8 && defined(__AVX__) && !defined(REAL_DOUBLE)
+  return (uint)__builtin_ia32_movmskps256(as_float8(m));
+#elif LANES == 4 && defined(__SSE__) && !defined(REAL_DOUBLE)
+  return (uint)__builtin_ia32_movmskps(as_float4(m));
 #else
   const natural bits = bits_of(m) & ((natural)(1) << to_natural(IOTA));
 #if LANES == 16
