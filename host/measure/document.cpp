@@ -8,8 +8,10 @@
 
 #include "base/command_line.h"
 #include "base/json_text.h"
+#include "gloam/planes.h"
 #include "measure/commit.h"
 #include "measure/intervals.h"
+#include "results/bound.h"
 
 namespace gloam::bench {
 
@@ -59,14 +61,40 @@ std::optional<double> samples_of(const Row& row) {
 
 const char* resolution_name(int resolution) { return resolution == 1 ? "full" : resolution == 2 ? "half" : "quarter"; }
 
+bool is_listed(const Pass& pass) {
+  return std::any_of(pass.defines.begin(), pass.defines.end(),
+                     [](const auto& define) { return define.first == "LISTED" && define.second != 0; });
+}
+
+/// Adds what a plan says of a pass to what was counted of it.
+void add_planes(report::PassCount& count, const PlannedPass& planned) {
+  const Pass& pass = planned.pass;
+  for (const std::vector<Binding>* list : {&pass.reads, &pass.writes}) {
+    for (const Binding& binding : *list)
+      count.bytes_of_planes += double(sizeof(float) * plane_kind(binding.plane).components.size()) *
+                               std::max(binding.layers, 1) / (pass.scale * pass.scale);
+  }
+  count.looks_around = pass.footprint.is_wide;
+}
+
 /// With counts for the settings that were counted: presets as they are.
 std::vector<report::Pass> passes_of(const Row& row) {
   const Variation& v = row.variation;
   const bool is_counted = v.variant.empty() && v.settings.empty();
   std::vector<report::Pass> passes;
-  for (const TimedPlan::Pass& pass : row.timed->passes())
-    passes.push_back(
-        {pass.name, times_of(pass.ms), is_counted ? count_of(v.technique->name, v.preset, pass.name) : std::nullopt});
+  for (const TimedPlan::Pass& pass : row.timed->passes()) {
+    std::optional<report::PassCount> count =
+        is_counted ? count_of(v.technique->name, v.preset, pass.name) : std::nullopt;
+    for (const PlannedPass& planned : row.timed->plan().passes) {
+      if (!count || planned.label() != pass.name) continue;
+      // How many pixels are on a list depends on the frame.
+      if (is_listed(planned.pass))
+        count.reset();
+      else
+        add_planes(*count, planned);
+    }
+    passes.push_back({pass.name, times_of(pass.ms), count});
+  }
   return passes;
 }
 
@@ -126,6 +154,17 @@ Peaks peaks_of(const std::vector<report::Scene>& scenes) {
       std::max_element(scenes.begin(), scenes.end(),
                        [&](const report::Scene& a, const report::Scene& b) { return pixels(a) < pixels(b); });
   return largest == scenes.end() ? Peaks{} : largest->peaks.value_or(Peaks{});
+}
+
+/// Says of each pass what limits it on its scene's frame.
+void add_bounds(report::Measurements& made) {
+  for (report::Row& row : made.rows) {
+    const auto scene = std::find_if(made.scenes.begin(), made.scenes.end(),
+                                    [&](const report::Scene& s) { return s.name == row.scene; });
+    if (scene == made.scenes.end() || !scene->peaks || !row.width || !row.height) continue;
+    for (report::Pass& pass : row.passes)
+      pass.bound = bound_of(pass, *scene->peaks, *row.width * *row.height, row.lanes.value_or(1));
+  }
 }
 
 /// Rays per pixel of the truths; none if they differ, or one does not state it.
@@ -197,6 +236,7 @@ report::Measurements results_of(const Measurement& measurement, const MeasureOpt
   made.peaks = peaks_of(measurement.scenes);
   made.scenes = measurement.scenes;
   for (const auto& row : measurement.rows) made.rows.push_back(result_of(*row));
+  add_bounds(made);
   made.growth = measurement.growth;
   made.converged = measurement.converged;
   made.scales = measurement.scales;

@@ -47,8 +47,10 @@ Json json(const Row& row, const PicturesOfFolder& pictures) {
   Json spent_on = Json::array(), passes = Json::array();
   for (const Share& s : row.spent_on) spent_on.push_back({{"what", s.what}, {"share", s.share}});
   for (const Pass& p : row.passes)
-    passes.push_back(
-        {{"name", p.name}, {"ms", json(p.ms)}, {"per_pixel", p.per_pixel ? json(*p.per_pixel) : Json(nullptr)}});
+    passes.push_back({{"name", p.name},
+                      {"ms", json(p.ms)},
+                      {"per_pixel", p.per_pixel ? json(*p.per_pixel) : Json(nullptr)},
+                      {"bound", p.bound ? Json{{"by", p.bound->by}, {"share", p.bound->share}} : Json(nullptr)}});
   return {{"technique", row.technique},
           {"preset", row.preset},
           {"variant", row.variant},

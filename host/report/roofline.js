@@ -15,6 +15,7 @@ function rooflinePoints(peaks) {
         gigabytes: perSecond(bytes),
         ms: pass.ms.median,
         count,
+        bound: pass.bound,
         bytes,
         colour,
         opacity,
@@ -34,6 +35,9 @@ function sharesOf({gflops, gathers, gigabytes}, {fma_gflops: fma, gather_g_per_s
 
 const shareText = (share) => (is(share) ? percent(share) : '–');
 
+/// "reads, 71 %"
+const boundText = ({bound}) => (bound ? `${bound.by}, ${percent(bound.share)}` : '–');
+
 function rooflineHover(point) {
   const {count, shares} = point;
   return {
@@ -43,7 +47,7 @@ function rooflineHover(point) {
       ['bytes per pixel', `${figure(count.bytes_loaded)} in, ${figure(count.bytes_stored)} out`],
       ['operations per byte', figure(point.intensity)], ['time', figure(point.ms) + ' ms'],
       ['reached', figure(point.gflops) + ' Gflop/s'], ['of multiply-add', shareText(shares.fma)],
-      ['of gather', shareText(shares.gather)], ['of copy', shareText(shares.copy)]
+      ['of gather', shareText(shares.gather)], ['of copy', shareText(shares.copy)], ['bound by', boundText(point)]
     ]
   };
 }
@@ -140,7 +144,8 @@ function renderRoofline() {
         number('Gflop/s', (p) => p.gflops, figure), number('G values/s', (p) => p.gathers, figure, 'read from planes'),
         number('GB/s', (p) => p.gigabytes, figure, 'read and written'),
         number('of multiply-add', (p) => p.shares.fma, shareText), number('of gather', (p) => p.shares.gather, shareText),
-        number('of copy', (p) => p.shares.copy, shareText, 'above 100 %: planes are read again from caches')
+        number('of copy', (p) => p.shares.copy, shareText, 'above 100 %: planes are read again from caches'),
+        {name: 'bound by', value: boundText, help: 'instructions, reads around each pixel, or copies of planes: which of them takes the longest at the peaks, and how much of the time that is'}
       ],
       points);
 }

@@ -18,19 +18,34 @@ const Fields<Milliseconds>& fields(const Milliseconds*) {
 
 const Fields<PassCount>& fields(const PassCount*) {
   using T = PassCount;
-  static const Fields<T> all = {field("operations", &T::operations, needed, "on floats; a fused multiply-add is two"),
-                                field("loads", &T::loads, needed, "of one value from a plane"),
-                                field("bytes_loaded", &T::bytes_loaded, needed, "", "bytes"),
-                                field("bytes_stored", &T::bytes_stored, needed, "", "bytes")};
+  static const Fields<T> all = {
+      field("operations", &T::operations, needed, "on floats; a fused multiply-add is two"),
+      field("loads", &T::loads, needed, "of one value from a plane"),
+      field("bytes_loaded", &T::bytes_loaded, needed, "", "bytes"),
+      field("bytes_stored", &T::bytes_stored, needed, "", "bytes"),
+      field("instructions", &T::instructions, may_lack, "of any kind"),
+      field("float_instructions", &T::float_instructions, may_lack, "of these, those of floats"),
+      field("bytes_of_planes", &T::bytes_of_planes, may_lack, "of the planes read and written, each once", "bytes"),
+      field("looks_around", &T::looks_around, may_lack, "reads far around each pixel")};
+  return all;
+}
+
+const Fields<Bound>& fields(const Bound*) {
+  using T = Bound;
+  static const Fields<T> all = {field("by", &T::by, needed, "`instructions`, `reads` or `copies`"),
+                                field("share", &T::share, needed, "of the pass's time, at the device's peak")};
   return all;
 }
 
 const Fields<Pass>& fields(const Pass*) {
   using T = Pass;
-  static const Fields<T> all = {field("name", &T::name, needed, "`hbao+/estimate`"),
-                                field("ms", &T::ms, needed, "[times](#fields-of-times)"),
-                                field("per_pixel", &T::per_pixel, may_lack,
-                                      "what it does by count: `operations`, `loads`, `bytes_loaded`, `bytes_stored`")};
+  static const Fields<T> all = {
+      field("name", &T::name, needed, "`hbao+/estimate`"), field("ms", &T::ms, needed, "[times](#fields-of-times)"),
+      field("per_pixel", &T::per_pixel, may_lack,
+            "what it does by count: `operations`, `loads`, `bytes_loaded`, `bytes_stored`, `instructions`, "
+            "`float_instructions`, "
+            "`bytes_of_planes`, `looks_around`"),
+      field("bound", &T::bound, may_lack, "[what limits it](#what-limits-a-pass): `by` and `share`")};
   return all;
 }
 

@@ -35,6 +35,7 @@ using Fields = std::vector<Field<Thing>>;
 /// The tables, in the order of the file.
 const Fields<Milliseconds>& fields(const Milliseconds*);
 const Fields<PassCount>& fields(const PassCount*);
+const Fields<Bound>& fields(const Bound*);
 const Fields<Pass>& fields(const Pass*);
 const Fields<Share>& fields(const Share*);
 const Fields<AgainstNaive>& fields(const AgainstNaive*);

@@ -24,12 +24,23 @@ struct PassCount {
   double operations = 0;  ///< on floats; a fused multiply-add is two
   double loads = 0;       ///< of one value from a plane
   double bytes_loaded = 0, bytes_stored = 0;
+  double instructions = 0;        ///< of any kind, before a compiler's last optimisations; 0 in older files
+  double float_instructions = 0;  ///< of these, the arithmetic, comparisons and selections of floats
+  double bytes_of_planes = 0;     ///< of the planes read and written, each once
+  bool looks_around = false;      ///< reads far around each pixel (`Footprint::is_wide`)
+};
+
+/// What limits a pass, and how much of its time that takes at the device's peak.
+struct Bound {
+  std::string by;  ///< "instructions", "reads" or "copies"
+  double share = 0;
 };
 
 struct Pass {
   std::string name;
   Milliseconds ms;
   std::optional<PassCount> per_pixel;  ///< empty: not counted
+  std::optional<Bound> bound = {};     ///< empty: not known
 };
 
 /// What the device reached at most on a scene's frame, in the rounds of its race.

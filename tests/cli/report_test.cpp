@@ -300,7 +300,8 @@ TEST_F(ReportInBrowser, DrawsTheRoofline) {
   document["results"][1]["passes"] = {
       {{"name", "hbao+/estimate"},
        {"ms", {{"median", 0.1}}},
-       {"per_pixel", {{"operations", 1000}, {"loads", 50}, {"bytes_loaded", 200}, {"bytes_stored", 4}}}},
+       {"per_pixel", {{"operations", 1000}, {"loads", 50}, {"bytes_loaded", 200}, {"bytes_stored", 4}}},
+       {"bound", {{"by", "reads"}, {"share", 0.768}}}},
       {{"name", "hbao+/uncounted"}, {"ms", {{"median", 0.1}}}, {"per_pixel", nullptr}}};
   write(document);
   ASSERT_EQ(report().status, 0);
@@ -315,7 +316,7 @@ TEST_F(ReportInBrowser, DrawsTheRoofline) {
   EXPECT_EQ(result["points"], 1);
   EXPECT_EQ(result["roofs"], 3);
   EXPECT_EQ(result["cells"], Json({"hbao+ medium: hbao+/estimate", "0.100", "1000", "204", "15.4", "0.768", "3.13",
-                                   "15\u202f%", "77\u202f%", "39\u202f%"}));
+                                   "15\u202f%", "77\u202f%", "39\u202f%", "reads, 77\u202f%"}));
   EXPECT_NE(result["remark"].get<std::string>().find("Not counted: hbao+ low."), std::string::npos) << result["remark"];
 }
 

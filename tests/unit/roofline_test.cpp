@@ -28,6 +28,7 @@ TEST(OperationCounts, AreInBytesOfFloats) {
   EXPECT_NEAR(count->bytes_stored, 4, 1e-9);
   EXPECT_NEAR(count->bytes_loaded, 4 * count->loads, 0.05);
   EXPECT_GT(count->operations, count->loads);
+  EXPECT_GT(count->instructions, count->operations / 2 + count->loads) << "a product with its sum is one";
 }
 
 TEST(OperationCounts, AreMissingForWhatWasNotCounted) {
