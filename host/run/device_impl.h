@@ -9,6 +9,7 @@
 
 #include "gloam/device.h"
 #include "gloam/parameters.h"
+#include "run/buffer_pool.h"
 #include "run/kernel_cache.h"
 
 namespace gloam {
@@ -27,6 +28,7 @@ struct Device::Impl {
   cl::CommandQueue queue;
   std::map<std::string, cl::Program> programs;  ///< by source file, kernel, declaration and build options
 
+  BufferPool pool;    ///< device memory that no run uses
   KernelCache cache;  ///< compiled kernels on disk; none where the driver keeps its own
 
   /// The built program of a kernel of a file, with the `declaration` of its arguments (run/arguments.h). Throws Error with the first

@@ -336,6 +336,7 @@ Enqueued enqueue(const Plan& plan, const DeviceFrame& frame, Device& device, con
       for (const cl_event event : wait_for) events.emplace_back(event, true);
       impl.queue.enqueueBarrierWithWaitList(&events);
     }
+    impl.pool.begin_run(device_bytes(plan, placement.layout(), frame.views.size()), impl.info.memory);
     Enqueued enqueued;
     cl::Event done = enqueue_all(plan, frame, host, placement, impl, options, enqueued);
     clRetainEvent(done());

@@ -12,6 +12,21 @@
 
 namespace gloam {
 
+namespace {
+
+/// At its end nothing that was enqueued reads the frame any more, also after an error.
+struct AllEnded {
+  cl::CommandQueue& queue;
+  ~AllEnded() {
+    try {
+      queue.finish();
+    } catch (const cl::Error&) {  // the error under way says it
+    }
+  }
+};
+
+}  // namespace
+
 unsigned long long device_bytes(const Plan& plan, const Layout& layout, size_t views) {
   return views_at_once(plan, views) * bytes_of_planes(plan, Layouts(plan, layout));
 }
@@ -55,6 +70,8 @@ RunResult run(const Plan& plan, const Frame& frame, Device& device, const RunOpt
   result.frame.assumed = frame.assumed;
   Counted counted;
   const DriverAtWork driver;
+  impl.pool.begin_run(result.device_bytes, impl.info.memory);
+  const AllEnded all_ended{impl.queue};
   try {
     run_all_views(plan, frame, impl, options, result, counted);
   } catch (const cl::Error& error) {

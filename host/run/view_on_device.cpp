@@ -1,6 +1,8 @@
 #include "run/view_on_device.h"
 
+#include <limits>
 #include <map>
+#include <utility>
 
 #include "base/lists.h"
 #include "frame/check.h"
@@ -10,6 +12,9 @@
 
 namespace gloam {
 namespace {
+
+/// The content of pooled buffers of which nothing is known: no plane has it outside of the image.
+constexpr float anything = std::numeric_limits<float>::quiet_NaN();
 
 const Plane& input_plane(const Plan& plan, const Frame& frame, const View& view, const std::string& name) {
   const Plane* plane = view.find(name);
@@ -49,26 +54,42 @@ void allocate_computed(const Plan& plan, ViewOnDevice& target) {
   for (const auto& [name, memory] : shared) target.buffers.share(name, memory);
 }
 
+Buffers::~Buffers() {
+  for (FromPool& each : from_pool_) device_.pool.give(std::move(each.buffer), each.bytes, each.content);
+}
+
+/// `content`: what is known to be in the buffer, and stays there.
+BufferPool::Taken Buffers::take(size_t bytes, float content) {
+  BufferPool::Taken taken = device_.pool.take(device_.context, bytes, content);
+  from_pool_.push_back({taken.buffer, bytes, content});
+  return taken;
+}
+
 void Buffers::upload(const Plane& plane) {
   for (const Channel& channel : plane.channels) {
-    const cl_mem_flags flags = CL_MEM_READ_ONLY | (in_host_pages_ ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR);
-    buffers_[plane.name].emplace_back(device_.context, flags, channel.layout().bytes(),
-                                      const_cast<float*>(channel.data()));
+    const size_t bytes = channel.layout().bytes();
+    if (in_host_pages_) {
+      buffers_[plane.name].emplace_back(device_.context, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, bytes,
+                                        const_cast<float*>(channel.data()));
+      continue;
+    }
+    cl::Buffer buffer = take(bytes, anything).buffer;
+    device_.queue.enqueueWriteBuffer(buffer, CL_FALSE, 0, bytes, channel.data());
+    buffers_[plane.name].push_back(std::move(buffer));
   }
 }
 
 void Buffers::upload_stack(const std::string& name, const std::vector<const Plane*>& layers) {
   const size_t bytes = layers.front()->channels.front().layout().bytes();
-  cl::Buffer buffer(device_.context, CL_MEM_READ_ONLY, layers.size() * bytes);
-  for (size_t i = 0; i < layers.size(); ++i) {
-    device_.queue.enqueueWriteBuffer(buffer, CL_TRUE, i * bytes, bytes, layers[i]->channels.front().data());
-  }
+  cl::Buffer buffer = take(layers.size() * bytes, anything).buffer;
+  for (size_t i = 0; i < layers.size(); ++i)
+    device_.queue.enqueueWriteBuffer(buffer, CL_FALSE, i * bytes, bytes, layers[i]->channels.front().data());
   buffers_[name].push_back(std::move(buffer));
 }
 
 void Buffers::allocate_stack(const std::string& name, const Layout& layout, size_t layers) {
   bytes_ += layers * layout.bytes();
-  cl::Buffer buffer(device_.context, CL_MEM_READ_WRITE, layers * layout.bytes());
+  cl::Buffer buffer = take(layers * layout.bytes(), anything).buffer;
   device_.queue.enqueueFillBuffer(buffer, plane_kind(name).outside, 0, layers * layout.bytes());
   buffers_[name].push_back(std::move(buffer));
 }
@@ -84,11 +105,13 @@ void Buffers::allocate(const std::string& name, const Layout& layout) {
                                   channel.data());
       host_[name].push_back(std::move(channel));
     } else {
-      cl::Buffer buffer(device_.context, CL_MEM_READ_WRITE, layout.bytes());
+      // No kernel writes into the guards.
+      BufferPool::Taken taken = take(layout.bytes(), kind.outside);
       const size_t guard = Layout::guard * sizeof(float);
-      device_.queue.enqueueFillBuffer(buffer, kind.outside, 0, guard);
-      device_.queue.enqueueFillBuffer(buffer, kind.outside, layout.bytes() - guard, guard);
-      buffers_[name].push_back(std::move(buffer));
+      for (const size_t at : {size_t(0), layout.bytes() - guard}) {
+        if (taken.is_new) device_.queue.enqueueFillBuffer(taken.buffer, kind.outside, at, guard);
+      }
+      buffers_[name].push_back(std::move(taken.buffer));
     }
   }
 }

@@ -15,11 +15,14 @@
 namespace gloam {
 
 /// The planes of one view on the device. With `in_host_pages` planes have the host's own pages, which a device that shares memory uses in
-/// place.
+/// place; else memory of the device's pool, to which it goes back.
 class Buffers {
  public:
   Buffers(Device::Impl& device, bool in_host_pages) : device_(device), in_host_pages_(in_host_pages) {}
+  Buffers(Buffers&&) = default;
+  ~Buffers();
 
+  /// The plane has to live until the queue's commands have ended.
   void upload(const Plane& plane);
   /// One buffer with the layers one after another, each laid out like a plane.
   void upload_stack(const std::string& name, const std::vector<const Plane*>& layers);
@@ -49,8 +52,16 @@ class Buffers {
   int length_of_list(const std::string& name);
 
  private:
+  struct FromPool {
+    cl::Buffer buffer;
+    size_t bytes;
+    float content;
+  };
+  BufferPool::Taken take(size_t bytes, float content);
+
   Device::Impl& device_;
   bool in_host_pages_;
+  std::vector<FromPool> from_pool_;
   unsigned long long bytes_ = 0;
   std::map<std::string, std::vector<Channel>> host_;  // outlives the buffers that use its pages
   std::map<std::string, std::vector<cl::Buffer>> buffers_;

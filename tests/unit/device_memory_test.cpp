@@ -268,6 +268,43 @@ TEST_F(Refusals, LeaveTheDeviceUsable) {
   EXPECT_EQ(refusal(), "");
 }
 
+/// Memory is taken again while the plan before still computes in it.
+TEST(DeviceMemory, PlansOneAfterAnotherDoNotDisturbOneAnother) {
+  const Caller caller;
+  Device of_queue = device_of(caller.queue());
+  Frame frame = shoot(perspective(width, height), room());
+  std::vector<Plan> plans;
+  for (const char* name : {"evidence", "sd-hbao+", "indirect", "gtao"})
+    plans.push_back(plan_for(find_technique(name), frame, few_samples(find_technique(name))));
+  struct Under {
+    DeviceFrame given;
+    Enqueued enqueued;
+  };
+  Memory memory(caller, width, height);
+  std::vector<Under> all;
+  for (int round = 0; round < 3; ++round) {
+    for (const Plan& plan : plans) {
+      const View& view = frame.views.front();
+      Under& under = all.emplace_back(Under{{width, height, {{view.name, view.camera, {}, {}, {}}}}, {}});
+      for (const std::string& name : plan.inputs) {
+        under.given.views[0].planes.push_back(memory.plane(name, suitable()));
+        memory.write(under.given.views[0].planes.back(), *view.find(name));
+      }
+      for (const std::string& name : plan.outputs)
+        under.given.views[0].results.push_back(memory.plane(name, suitable()));
+    }
+  }
+  for (size_t i = 0; i < all.size(); ++i) all[i].enqueued = enqueue(plans[i % plans.size()], all[i].given, of_queue);
+  caller.queue.finish();
+  for (size_t i = 0; i < all.size(); ++i) {
+    const Frame expected = gloam::run(plans[i % plans.size()], frame, device()).frame;
+    Frame computed = without_planes(frame);
+    for (const DevicePlane& result : all[i].given.views[0].results)
+      computed.views[0].planes[result.name] = memory.read(result);
+    EXPECT_TRUE(same_bits(expected, computed)) << i;
+  }
+}
+
 TEST(DeviceMemory, BeginsNothingBeforeTheEventsThatItWaitsFor) {
   const Caller caller;
   Memory memory(caller, width, height);

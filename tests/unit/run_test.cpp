@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 
+#include "run/device_impl.h"
 #include "support/stress.h"
 #include "support/techniques.h"
 
@@ -57,6 +58,19 @@ TEST(Run, LaunchesThatAreWaitedForTogetherComputeTheSame) {
     EXPECT_EQ(one_by_one.listed, together.listed) << name;
     ASSERT_EQ(one_by_one.passes.size(), together.passes.size()) << name;
     for (const PassTime& pass : together.passes) EXPECT_EQ(pass.ms.size(), 2u) << pass.name;
+  }
+}
+
+/// Planes go to and from the device's own memory, as on GPUs, which is kept from run to run.
+TEST(Run, OnADeviceWithMemoryOfItsOwnComputesTheSame) {
+  Device own;
+  own.impl().info.shares_memory = false;
+  for (const char* name : {"evidence", "dp-gtao", "stereo-gtao", "sssr", "lightfield-hbao+", "evidence"}) {
+    const Technique& technique = find_technique(name);
+    Frame frame = shoot(perspective(48, 32), room());
+    const Plan plan = plan_for(technique, frame, few_samples(technique));
+    const Frame expected = run(plan, frame, device()).frame;
+    for (int time = 0; time < 2; ++time) EXPECT_TRUE(same_bits(expected, run(plan, frame, own).frame)) << name;
   }
 }
 
