@@ -37,14 +37,17 @@ static inline void load_sources(Sources sources, int i, real* values) {
   for (int c = 0; c < COMPONENTS; ++c) values[c] = source_at(sources, c, i);
 }
 
-// Sums over the taps in `columns` to either side of each pixel of a row that begins at `here`, and in `rows` above and below: constants, as
-// is `is_inside`: all columns lie in the image. What lies beside the image may be NaN.
-static inline __attribute__((always_inline)) Taps taps_around(Frame frame, TangentPlane plane, integer x, int y, int here,
-                                                              int columns, int rows, Sources sources, PLANE depth,
-                                                              PLANE normal_x, PLANE normal_y, PLANE normal_z) {
+// Sums over the taps in `columns` to either side of each pixel of a row that begins at `here`, and in `rows` above and below: constants. What
+// lies beside the image may be NaN.
+static inline __attribute__((always_inline)) void sum_taps_around(Taps* taps, Frame frame, TangentPlane plane, integer x,
+                                                                  int y, int here, int columns, int rows,
+                                                                  Sources sources, global const float* depth,
+                                                                  global const float* normal_x,
+                                                                  global const float* normal_y,
+                                                                  global const float* normal_z) {
   real values[COMPONENTS];
   load_sources(sources, here, values);
-  Taps taps = own_tap(values);
+  *taps = own_tap(values);
   for (int j = -rows; j <= rows; ++j) {
     if (y + j < 0 || y + j >= frame.height) continue;
 #pragma unroll
@@ -59,20 +62,21 @@ static inline __attribute__((always_inline)) Taps taps_around(Frame frame, Tange
           same_surface(plane, frame, step, load(depth, there), load3(normal_x, normal_y, normal_z, there));
       const mask in_row = columns == 0 ? EVERY_LANE : to_mask(to_natural(x + i) < (natural)((uint)frame.width));
       load_sources(sources, there, values);
-      // What lies beside the image may be NaN.
 #pragma unroll
       for (int c = 0; c < COMPONENTS; ++c) values[c] = choose(in_row, values[c], (real)(0));
-      add_tap(&taps, choose(in_row, weight, (real)(0)), values);
+      add_tap(taps, choose(in_row, weight, (real)(0)), values);
     }
   }
-  return taps;
 }
 
-// As taps_around for the taps above and below. `values`: of the pixels of 2 * rows + 1 rows, one component after another in each.
-static inline __attribute__((always_inline)) Taps taps_along_column(Frame frame, TangentPlane plane, int y, int here, int rows,
-                                                                    const real* values, PLANE depth, PLANE normal_x,
-                                                                    PLANE normal_y, PLANE normal_z) {
-  Taps taps = own_tap(values + rows * COMPONENTS);
+// As sum_taps_around for the taps above and below. `values`: of the pixels of 2 * rows + 1 rows, one component after another in each.
+static inline __attribute__((always_inline)) void sum_taps_along_column(Taps* taps, Frame frame, TangentPlane plane, int y,
+                                                                        int here, int rows, const real* values,
+                                                                        global const float* depth,
+                                                                        global const float* normal_x,
+                                                                        global const float* normal_y,
+                                                                        global const float* normal_z) {
+  *taps = own_tap(values + rows * COMPONENTS);
 #pragma unroll
   for (int j = -rows; j <= rows; ++j) {
     if (j == 0 || y + j < 0 || y + j >= frame.height) continue;
@@ -80,8 +84,7 @@ static inline __attribute__((always_inline)) Taps taps_along_column(Frame frame,
     const real weight =
         window_at(j, rows) * same_surface(plane, frame, (scalar)j * plane.per_row, load(depth, there),
                                           load3(normal_x, normal_y, normal_z, there));
-    add_tap(&taps, weight, values + (rows + j) * COMPONENTS);
+    add_tap(taps, weight, values + (rows + j) * COMPONENTS);
   }
-  return taps;
 }
 #endif

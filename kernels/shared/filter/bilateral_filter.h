@@ -42,8 +42,8 @@ kernel void bilateral(ARGUMENTS) {
   const Results results = RESULT_PLANES(result);
   SKIP_UNWANTED(frame, store_all(FILTER_OUTSIDE, results, here))
   const TangentPlane plane = filter_plane(frame, params, y, here, depth, normal_x, normal_y, normal_z);
-  const Taps taps = taps_around(frame, plane, FIRST_X + IOTA, y, here, COLUMNS, ROWS, sources, depth, normal_x,
-                                normal_y, normal_z);
+  Taps taps;
+  sum_taps_around(&taps, frame, plane, FIRST_X + IOTA, y, here, COLUMNS, ROWS, sources, depth, normal_x, normal_y, normal_z);
   real means[COMPONENTS];
   means_of(taps, !is_background(load(depth, here)) & is_wanted, FILTER_OUTSIDE, means);
   store_means(means, results, here);
@@ -90,7 +90,8 @@ kernel void bilateral_separable(ARGUMENTS) {
       const int here = index_of(frame, FIRST_X, last);
       expect_row(here + ROWS_AHEAD * frame.pitch + LANES, sources, depth, normal_x, normal_y, normal_z);
       const TangentPlane plane = filter_plane(frame, params, last, here, depth, normal_x, normal_y, normal_z);
-      const Taps taps = taps_around(frame, plane, FIRST_X + IOTA, last, here, COLUMNS, 0, sources, depth, normal_x,
+      Taps taps;
+  sum_taps_around(&taps, frame, plane, FIRST_X + IOTA, last, here, COLUMNS, 0, sources, depth, normal_x,
                                     normal_y, normal_z);
       means_of(taps, !is_background(load(depth, here)), NO_RESULT, along_rows + 2 * ROWS * COMPONENTS);
     }
@@ -102,8 +103,8 @@ kernel void bilateral_separable(ARGUMENTS) {
       continue;
     }
     const TangentPlane plane = filter_plane(frame, params, y, here, depth, normal_x, normal_y, normal_z);
-    const Taps taps =
-        taps_along_column(frame, plane, y, here, ROWS, along_rows, depth, normal_x, normal_y, normal_z);
+    Taps taps;
+    sum_taps_along_column(&taps, frame, plane, y, here, ROWS, along_rows, depth, normal_x, normal_y, normal_z);
     real means[COMPONENTS];
     means_of(taps, !is_background(load(depth, here)) & is_wanted, FILTER_OUTSIDE, means);
     store_means(means, results, here);

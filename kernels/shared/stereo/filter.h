@@ -29,7 +29,8 @@ kernel void bilateral_weighted(ARGUMENTS) {
   const TangentPlane plane =
       tangent_plane_at(frame, to_real(x), (real)(y), z, load3(normal_x, normal_y, normal_z, here),
                        params.depth_tolerance * params.radius, params.normal_tolerance);
-  const Taps taps = taps_around(frame, plane, x, y, here, COLUMNS, ROWS, sources, depth, normal_x, normal_y, normal_z);
+  Taps taps;
+  sum_taps_around(&taps, frame, plane, x, y, here, COLUMNS, ROWS, sources, depth, normal_x, normal_y, normal_z);
   const mask is_surface = !is_background(z);
 #pragma unroll
   for (int c = 0; c < COMPONENTS; ++c)
