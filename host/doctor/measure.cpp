@@ -18,8 +18,9 @@ namespace {
 constexpr int timed_width = 960,
               timed_height = 540;  ///< on CPUs, groups of smaller images have one work-item (run/launch.cpp)
 constexpr int rounds = 5;
-constexpr double hopeless = 1.5;   ///< of the best time: after the first round, such a candidate drops out
-constexpr double worth_it = 0.97;  ///< share of the usual tuning's time that another must not exceed to take its place
+constexpr size_t least_rounds = 3;  ///< of a candidate that takes the usual one's place
+constexpr double hopeless = 1.5;    ///< of the best time: after the first round, such a candidate drops out
+constexpr double worth_it = 0.97;   ///< share of the usual tuning's time that another must not exceed to take its place
 /// The technique whose kernel needs the most registers (bench/README.md, instructions on GPUs).
 constexpr const char* needs_most_registers = "evidence";
 
@@ -83,7 +84,7 @@ bool is_worth_it(const Times& times, const Times& usual) {
   const size_t common = std::min(times.size(), usual.size());
   size_t wins = 0;
   for (size_t i = 0; i < common; ++i) wins += times[i] < worth_it * usual[i];
-  return best(times) < worth_it * best(usual) && 4 * wins > 3 * common;
+  return common >= least_rounds && best(times) < worth_it * best(usual) && 4 * wins > 3 * common;
 }
 
 /// The candidate whose times of a kind are the shortest and worth it, else the usual one.

@@ -21,27 +21,29 @@ namespace {
 /// The address of an OpenCL object.
 using Handle = std::uintptr_t;
 
-/// (handle, offset, step) of each channel; one channel stands for all components side by side.
-using Channels = std::vector<std::tuple<Handle, size_t, size_t>>;
-
-DevicePlane plane_of(const std::string& name, const Channels& channels, size_t pitch, bool is_clean) {
+/// `step`: 0 for pixels without a gap. One buffer holds the components of a pixel side by side.
+DevicePlane plane_of(const std::string& name, const std::vector<Handle>& buffers, size_t offset, size_t step,
+                     size_t pitch, bool is_clean) {
   DevicePlane plane{.name = name, .pitch = pitch, .is_clean = is_clean};
-  for (const auto& [handle, offset, step] : channels)
-    plane.channels.push_back({reinterpret_cast<cl_mem>(handle), offset, step});
-  const size_t components = plane_kind(name).components.size();
-  for (size_t i = 1; channels.size() == 1 && i < components; ++i) {
-    DeviceChannel next = plane.channels.front();
-    next.offset += i * sizeof(float);
-    plane.channels.push_back(next);
+  const size_t components = plane_kind(name).components.size(), side_by_side = buffers.size() == 1 ? components : 1;
+  const size_t tight = side_by_side * sizeof(float);
+  if (step != 0 && step < tight)
+    throw Error("plane '{}': a step of {} bytes is given; its {} components side by side take {}", name, step,
+                side_by_side, tight);
+  for (const Handle buffer : buffers) {
+    for (size_t i = 0; i < side_by_side; ++i)
+      plane.channels.push_back(
+          {reinterpret_cast<cl_mem>(buffer), offset + i * sizeof(float), step == 0 ? tight : step});
   }
   return plane;
 }
 
 std::vector<DevicePlane> planes_of(const py::dict& given) {
+  using Facts = std::tuple<std::vector<Handle>, size_t, size_t, size_t, bool>;
   std::vector<DevicePlane> planes;
   for (const auto& [name, facts] : given) {
-    const auto [channels, pitch, is_clean] = py::cast<std::tuple<Channels, size_t, bool>>(facts);
-    planes.push_back(plane_of(py::cast<std::string>(name), channels, pitch, is_clean));
+    const auto [buffers, offset, step, pitch, is_clean] = py::cast<Facts>(facts);
+    planes.push_back(plane_of(py::cast<std::string>(name), buffers, offset, step, pitch, is_clean));
   }
   return planes;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -16,12 +17,13 @@ bool is_same(float a, float b) { return std::bit_cast<uint32_t>(a) == std::bit_c
 }  // namespace
 
 BufferPool::Taken BufferPool::take(const cl::Context& context, size_t bytes, float content) {
-  const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) {
+  // The last one given back, so that what is too many stays unused and goes.
+  const auto found = std::find_if(kept_.rbegin(), kept_.rend(), [&](const Kept& kept) {
     return kept.bytes == bytes && is_same(kept.content, content);
   });
-  if (found != kept_.end()) {
+  if (found != kept_.rend()) {
     Taken taken{std::move(found->buffer), false};
-    kept_.erase(found);
+    kept_.erase(std::next(found).base());
     return taken;
   }
   try {

@@ -274,8 +274,12 @@ std::unique_ptr<cl::Program> Device::Impl::kept_program(const std::string& key, 
 
 void Device::Impl::keep(const std::string& key, const cl::Program& program) const {
   try {
+    // A caller's context may have several devices.
+    const std::vector<cl::Device> devices = program.getInfo<CL_PROGRAM_DEVICES>();
     const std::vector<std::vector<unsigned char>> binaries = program.getInfo<CL_PROGRAM_BINARIES>();
-    if (!binaries.empty()) cache.keep(key, std::string(binaries.front().begin(), binaries.front().end()));
+    for (size_t i = 0; i < std::min(devices.size(), binaries.size()); ++i) {
+      if (devices[i]() == device()) cache.keep(key, std::string(binaries[i].begin(), binaries[i].end()));
+    }
   } catch (const cl::Error&) {  // a driver that gives none: the next process compiles again
   }
 }

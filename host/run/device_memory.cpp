@@ -22,30 +22,32 @@ namespace {
 
 constexpr size_t guard_bytes = Layout::guard * sizeof(float), lane_bytes = 16 * sizeof(float);
 constexpr const char* arguments_of_copy =
-    "#define ARGUMENTS global const float* from, uint from_index, uint from_step, uint from_pitch, global float* to, "
-    "uint to_index, uint to_step, uint to_pitch, float low, float high, float below, float above, float otherwise\n";
+    "#define ARGUMENTS global const float* from, ulong from_index, ulong from_step, ulong from_pitch, global float* "
+    "to, "
+    "ulong to_index, ulong to_step, ulong to_pitch, ulong width, float low, float high, float below, float above, "
+    "float otherwise, float outside\n";
 
-/// What a copy makes of values that kernels do not expect, as `normalise` does.
+/// What a copy makes of values that kernels do not expect, and of the padding.
 struct Bounds {
-  float low, high, below, above, otherwise;
+  float low, high, below, above, otherwise, outside;
 };
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
-constexpr Bounds any_value = {-infinite, infinite, 0, 0, std::numeric_limits<float>::quiet_NaN()};
+constexpr Bounds any_value = {-infinite, infinite, 0, 0, std::numeric_limits<float>::quiet_NaN(), 0};
 
 Bounds bounds_of(const PlaneKind& kind) {
   constexpr float most = std::numeric_limits<float>::max();
   switch (kind.meaning) {
     case PlaneKind::view_depth:
-      return {nearest_depth, std::nextafter(farthest_depth, 0.0f), infinite, infinite, infinite};
+      return {nearest_depth, std::nextafter(farthest_depth, 0.0f), infinite, infinite, infinite, infinite};
     case PlaneKind::unit_interval:
-      return {0, 1, 0, 1, kind.outside};
+      return {0, 1, 0, 1, kind.outside, kind.outside};
     case PlaneKind::unit_vector:
-      return {-1, 1, 0, 0, 0};
+      return {-1, 1, 0, 0, 0, kind.outside};
     case PlaneKind::length:
-      return {0, most, 0, 0, 0};
+      return {0, most, 0, 0, 0, kind.outside};
     default:
-      return {-most, most, 0, 0, 0};
+      return {-most, most, 0, 0, 0, kind.outside};
   }
 }
 
@@ -56,7 +58,7 @@ size_t pitch_of(const DevicePlane& plane, const DeviceFrame& frame) {
 size_t bytes_of_memory(const DeviceChannel& channel) { return cl::Buffer(channel.memory, true).getInfo<CL_MEM_SIZE>(); }
 
 /// Throws Error for a plane that is not what its name says, or does not lie in its buffers.
-void check_plane(const DevicePlane& plane, const DeviceFrame& frame, const std::string& what,
+void check_plane(const DevicePlane& plane, const DeviceFrame& frame, const std::string& what, bool is_result,
                  const Device::Impl& device) {
   const auto refuse = [&](const std::string& why) { throw Error("{}: {}", what, why); };
   const size_t components = plane_kind(plane.name).components.size();
@@ -72,11 +74,18 @@ void check_plane(const DevicePlane& plane, const DeviceFrame& frame, const std::
     if (channel.offset % 4 != 0 || channel.step % 4 != 0 || pitch % 4 != 0 || channel.step == 0)
       refuse(fmt::format("an offset of {}, a step of {} and a pitch of {} bytes are given; multiples of 4 are allowed",
                          channel.offset, channel.step, pitch));
-    const size_t row = (size_t(frame.width) - 1) * channel.step + 4;
+    const cl_mem_flags flags = buffer.getInfo<CL_MEM_FLAGS>();
+    if (flags & (is_result ? CL_MEM_READ_ONLY : CL_MEM_WRITE_ONLY))
+      refuse(is_result ? "kernels may not write its memory (CL_MEM_READ_ONLY)"
+                       : "kernels may not read its memory (CL_MEM_WRITE_ONLY)");
+    // Compared by division: sums may be more than a number holds.
+    const size_t bytes = bytes_of_memory(channel), columns = size_t(frame.width) - 1, rows = size_t(frame.height) - 1;
+    if (channel.offset > bytes || (columns > 0 && channel.step > bytes / columns) || (rows > 0 && pitch > bytes / rows))
+      refuse(fmt::format("with an offset of {}, a step of {} and a pitch of {} bytes it ends behind its buffer of {}",
+                         channel.offset, channel.step, pitch, bytes));
+    const size_t row = columns * channel.step + 4, end = channel.offset + rows * pitch + row;
     if (pitch < row) refuse(fmt::format("a pitch of {} bytes is given; a row takes {}", pitch, row));
-    const size_t end = channel.offset + (size_t(frame.height) - 1) * pitch + row;
-    if (end > bytes_of_memory(channel))
-      refuse(fmt::format("it ends at byte {} of a buffer of {}", end, bytes_of_memory(channel)));
+    if (end > bytes) refuse(fmt::format("it ends at byte {} of a buffer of {}", end, bytes));
   }
 }
 
@@ -91,7 +100,7 @@ void check_planes(const Plan& plan, const DeviceFrame& frame, const Device::Impl
           throw Error("{}: the plan has no such {}{}; it has {}", what, kind, suggestion(plane.name, known),
                       enumerate(known));
         if (!seen.insert(plane.name).second) throw Error("{}: is given twice", what);
-        check_plane(plane, frame, what, device);
+        check_plane(plane, frame, what, &list == &view.results, device);
       }
       return seen;
     };
@@ -104,7 +113,7 @@ void check_planes(const Plan& plan, const DeviceFrame& frame, const Device::Impl
 }
 
 /// The frame without its planes, as the host's code takes it.
-Frame frame_of(const DeviceFrame& device_frame) {
+Frame without_planes(const DeviceFrame& device_frame) {
   Frame frame;
   frame.display = frame.window = {0, 0, device_frame.width, device_frame.height};
   for (const DeviceView& given : device_frame.views) {
@@ -123,12 +132,16 @@ class Placement {
   Placement(const DeviceFrame& frame, Device::Impl& device)
       : frame_(frame), device_(device), layout_(frame.width, frame.height) {
     alignment_ = device.device.getInfo<CL_DEVICE_MEM_BASE_ADDR_ALIGN>() / 8;
-    // The first pitch that suits is that of all planes in place.
+    // The first pitch that suits is that of all planes in place. Much padding would make all other planes as large.
+    const int own = layout_.pitch;
     for (const DeviceView& view : frame.views) {
       for (const std::vector<DevicePlane>* list : {&view.planes, &view.results}) {
         for (const DevicePlane& plane : *list) {
           const size_t pitch = pitch_of(plane, frame);
-          if (pitch % lane_bytes != 0 || !fits(plane, pitch)) continue;
+          const bool may_be_in_place = plane.is_clean || list == &view.results;
+          if (!may_be_in_place || pitch % lane_bytes != 0 || pitch > 2 * size_t(own) * sizeof(float) ||
+              !fits(plane, pitch))
+            continue;
           layout_.pitch = int(pitch / sizeof(float));
           return;
         }
@@ -147,12 +160,12 @@ class Placement {
     std::vector<cl::Buffer> buffers;
     for (const DeviceChannel& channel : plane.channels) {
       cl::Buffer whole(channel.memory, true);
-      if (channel.offset == guard_bytes) {
+      if (channel.offset == guard_bytes && whole.getInfo<CL_MEM_SIZE>() == layout_.bytes()) {
         buffers.push_back(whole);
         continue;
       }
       const cl_buffer_region region = {channel.offset - guard_bytes, layout_.bytes()};
-      buffers.push_back(whole.createSubBuffer(CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION, &region));
+      buffers.push_back(whole.createSubBuffer(0, CL_BUFFER_CREATE_TYPE_REGION, &region));
     }
     return buffers;
   }
@@ -163,7 +176,10 @@ class Placement {
     const DeviceChannel& given = plane.channels[channel];
     const Side theirs{given.memory, given.offset / 4, given.step / 4, pitch_of(plane, frame_) / 4};
     const Side ours{own(), layer * layout.count() + layout.index(0, 0), 1, size_t(layout.pitch)};
-    copy_pixels(back ? ours : theirs, back ? theirs : ours, back ? any_value : bounds_of(plane_kind(plane.name)));
+    if (back)
+      copy_pixels(ours, theirs, any_value, frame_.width);
+    else
+      copy_pixels(theirs, ours, bounds_of(plane_kind(plane.name)), layout.pitch);
   }
 
   /// A copy between two of the caller's planes.
@@ -173,7 +189,7 @@ class Placement {
         const DeviceChannel& channel = plane.channels[i];
         return Side{channel.memory, channel.offset / 4, channel.step / 4, pitch_of(plane, frame_) / 4};
       };
-      copy_pixels(side(from), side(to), bounds_of(plane_kind(from.name)));
+      copy_pixels(side(from), side(to), bounds_of(plane_kind(from.name)), frame_.width);
     }
   }
 
@@ -189,22 +205,27 @@ class Placement {
       if (channel.step != sizeof(float) || channel.offset < guard_bytes) return false;
       const size_t begin = channel.offset - guard_bytes, bytes = size_t(frame_.height) * pitch + 2 * guard_bytes;
       const cl::Buffer whole(channel.memory, true);
-      const bool is_part = whole.getInfo<CL_MEM_ASSOCIATED_MEMOBJECT>()() != nullptr && begin != 0;
-      return begin % alignment_ == 0 && !is_part && begin + bytes <= whole.getInfo<CL_MEM_SIZE>();
+      const size_t all = whole.getInfo<CL_MEM_SIZE>();
+      // A part of a buffer has no parts, and what is only written cannot be filtered.
+      const bool is_part = whole.getInfo<CL_MEM_ASSOCIATED_MEMOBJECT>()() != nullptr && bytes != all;
+      const bool is_write_only = whole.getInfo<CL_MEM_FLAGS>() & CL_MEM_WRITE_ONLY;
+      return begin % alignment_ == 0 && !is_part && !is_write_only && begin + bytes <= all;
     });
   }
 
-  void copy_pixels(const Side& from, const Side& to, const Bounds& bounds) {
+  /// `columns`: the width, or with padding the pitch.
+  void copy_pixels(const Side& from, const Side& to, const Bounds& bounds, int columns) {
     cl::Kernel kernel(device_.program("resample/copy_pixels.cl", "copy_pixels", arguments_of_copy, "-cl-std=CL1.2"),
                       "copy_pixels");
     cl_uint index = 0;
     for (const Side* side : {&from, &to}) {
       kernel.setArg(index++, sizeof side->memory, &side->memory);
-      for (const size_t number : {side->index, side->step, side->pitch}) kernel.setArg(index++, cl_uint(number));
+      for (const size_t number : {side->index, side->step, side->pitch}) kernel.setArg(index++, cl_ulong(number));
     }
-    for (const float bound : {bounds.low, bounds.high, bounds.below, bounds.above, bounds.otherwise})
+    kernel.setArg(index++, cl_ulong(frame_.width));
+    for (const float bound : {bounds.low, bounds.high, bounds.below, bounds.above, bounds.otherwise, bounds.outside})
       kernel.setArg(index++, bound);
-    device_.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(size_t(frame_.width), size_t(frame_.height)));
+    device_.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(size_t(columns), size_t(frame_.height)));
   }
 
   const DeviceFrame& frame_;
@@ -279,25 +300,45 @@ void check_results(const Plan& plan, const DeviceFrame& frame) {
   }
 }
 
+/// Throws Error for a result that no pass makes in its view: "multiview" has none for the second.
+void check_made(const DeviceView& given, const ViewOnDevice& target) {
+  for (const DevicePlane& result : given.results) {
+    if (!target.planes.contains(result.name))
+      throw Error("result '{}' of view '{}': no pass makes it in this view; leave it out", result.name, given.name);
+  }
+}
+
 cl::Event enqueue_all(const Plan& plan, const DeviceFrame& frame, const Frame& host, Placement& placement,
                       Device::Impl& device, const RunOptions& options, Enqueued& enqueued) {
   const Layout& layout = placement.layout();
-  std::vector<std::vector<ViewOnDevice>> groups(needs_two_views(plan) ? 1 : frame.views.size());
-  for (size_t i = 0; i < frame.views.size(); ++i) {
-    ViewOnDevice target{host, host.views[i], layout, Layouts(plan, layout), Buffers(device, false)};
-    lay_out(plan, frame.views[i], placement, target, enqueued.copied);
-    enqueued.device_bytes += target.buffers.bytes();
-    groups[std::min(i, groups.size() - 1)].push_back(std::move(target));
-  }
-  size_t view = 0;
-  for (std::vector<ViewOnDevice>& targets : groups) {
+  const size_t together = needs_two_views(plan) ? frame.views.size() : 1;
+  for (size_t first = 0; first < frame.views.size(); first += together) {
+    std::vector<ViewOnDevice> targets;  // the next ones take the same memory
+    unsigned long long bytes = 0;
+    for (size_t i = first; i < first + together; ++i) {
+      targets.push_back({host, host.views[i], layout, Layouts(plan, layout), Buffers(device, false)});
+      lay_out(plan, frame.views[i], placement, targets.back(), enqueued.copied);
+      bytes += targets.back().buffers.bytes();
+    }
+    enqueued.device_bytes = std::max(enqueued.device_bytes, bytes);
+    build_passes(plan, targets, device, options);
+    for (size_t i = 0; i < together; ++i) check_made(frame.views[first + i], targets[i]);
     enqueue_passes(plan, targets, device, options);
-    for (ViewOnDevice& target : targets) copy_results(plan, frame.views[view++], placement, target, enqueued.copied);
+    for (size_t i = 0; i < together; ++i)
+      copy_results(plan, frame.views[first + i], placement, targets[i], enqueued.copied);
   }
   cl::Event done;
   device.queue.enqueueMarkerWithWaitList(nullptr, &done);
   device.queue.flush();
   return done;
+}
+
+/// An error leaves nothing under way that uses the caller's buffers.
+void end_all(cl::CommandQueue& queue) {
+  try {
+    queue.finish();
+  } catch (const cl::Error&) {  // the error under way says it
+  }
 }
 
 }  // namespace
@@ -320,11 +361,14 @@ Enqueued enqueue(const Plan& plan, const DeviceFrame& frame, Device& device, con
                  const std::vector<cl_event>& wait_for) {
   Device::Impl& impl = device.impl();
   const std::lock_guard alone(impl.busy);
-  const Frame host = frame_of(frame);
+  const Frame host = without_planes(frame);
   check_views(plan, host);
   if (looks_into_key_views(plan))
     throw Error("{}: its views look into key views, one after another; gloam::run computes them", plan.technique);
   check_options(plan, impl.info, options);
+  if (options.repeat != 1)
+    throw UsageError("{}: {} runs are not allowed for planes in a device's memory; 1 is", plan.technique,
+                     options.repeat);
   const DriverAtWork driver;
   try {
     check_planes(plan, frame, impl);
@@ -343,7 +387,11 @@ Enqueued enqueue(const Plan& plan, const DeviceFrame& frame, Device& device, con
     enqueued.done = {done(), [](cl_event event) { clReleaseEvent(event); }};
     return enqueued;
   } catch (const cl::Error& error) {
+    end_all(impl.queue);
     throw Error("{} on {}: {} ({})", plan.technique, impl.info.name, error.what(), cl_error_name(error.err()));
+  } catch (const Error&) {
+    end_all(impl.queue);
+    throw;
   }
 }
 

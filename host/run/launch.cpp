@@ -73,9 +73,7 @@ bool launches_ahead(const DeviceInfo& info) {
 
 Launch launch(Device::Impl& device, cl::Kernel& kernel, const Pass& pass, const Layout& layout, const Tuning& tuning) {
   Launch launch{.start = std::chrono::steady_clock::now(), .cpu_before = process_cpu_ms()};
-  // Padding that a caller's memory may have beyond whole rows of lanes is not computed.
-  const size_t columns = size_t(Layout(layout.width, 1).pitch / tuning.lanes),
-               rows = items_down(device.info, pass, layout);
+  const size_t columns = size_t(layout.pitch / tuning.lanes), rows = items_down(device.info, pass, layout);
   const cl::NDRange group =
       group_size(device.info, columns, rows, most_per_group_of(kernel, device, of_kind(tuning, pass)));
   const size_t strip = columns_of_strip(device.info, pass, columns, group, tuning.lanes);

@@ -40,16 +40,28 @@ void upload_inputs(const Plan& plan, ViewOnDevice& target) {
   }
 }
 
+/// The planes that passes use as lists.
+std::set<std::string> lists_of(const Plan& plan) {
+  std::set<std::string> lists;
+  for (const PlannedPass& planned : plan.passes) {
+    for (const Binding& written : planned.pass.writes) {
+      if (written.starts_empty) lists.insert(written.plane);
+    }
+  }
+  return lists;
+}
+
 }  // namespace
 
 void allocate_computed(const Plan& plan, ViewOnDevice& target) {
   const std::map<std::string, std::string> shared = shared_memory(plan, target.layouts);
+  const std::set<std::string> lists = lists_of(plan);
   for (const std::string& name : planes_of(plan)) {
     if (target.buffers.has(name) || shared.contains(name)) continue;
     if (const size_t layers = layers_in_buffer(plan, name); layers > 1 || is_stack(name))
       target.buffers.allocate_stack(name, target.layouts.of(name), layers);
     else
-      target.buffers.allocate(name, target.layouts.of(name));
+      target.buffers.allocate(name, target.layouts.of(name), lists.contains(name));
   }
   for (const auto& [name, memory] : shared) target.buffers.share(name, memory);
 }
@@ -60,6 +72,7 @@ Buffers::~Buffers() {
 
 /// `content`: what is known to be in the buffer, and stays there.
 BufferPool::Taken Buffers::take(size_t bytes, float content) {
+  if (in_host_pages_) return {cl::Buffer(device_.context, CL_MEM_READ_WRITE, bytes), true};
   BufferPool::Taken taken = device_.pool.take(device_.context, bytes, content);
   from_pool_.push_back({taken.buffer, bytes, content});
   return taken;
@@ -94,7 +107,7 @@ void Buffers::allocate_stack(const std::string& name, const Layout& layout, size
   buffers_[name].push_back(std::move(buffer));
 }
 
-void Buffers::allocate(const std::string& name, const Layout& layout) {
+void Buffers::allocate(const std::string& name, const Layout& layout, bool is_list) {
   const PlaneKind kind = plane_kind(name);
   for (size_t i = 0; i < kind.components.size(); ++i) {
     bytes_ += layout.bytes();
@@ -105,11 +118,11 @@ void Buffers::allocate(const std::string& name, const Layout& layout) {
                                   channel.data());
       host_[name].push_back(std::move(channel));
     } else {
-      // No kernel writes into the guards.
-      BufferPool::Taken taken = take(layout.bytes(), kind.outside);
+      // No kernel writes into the guards, but for the length of a list.
+      BufferPool::Taken taken = take(layout.bytes(), is_list ? anything : kind.outside);
       const size_t guard = Layout::guard * sizeof(float);
       for (const size_t at : {size_t(0), layout.bytes() - guard}) {
-        if (taken.is_new) device_.queue.enqueueFillBuffer(taken.buffer, kind.outside, at, guard);
+        if (taken.is_new || is_list) device_.queue.enqueueFillBuffer(taken.buffer, kind.outside, at, guard);
       }
       buffers_[name].push_back(std::move(taken.buffer));
     }

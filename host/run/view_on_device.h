@@ -26,7 +26,7 @@ class Buffers {
   void upload(const Plane& plane);
   /// One buffer with the layers one after another, each laid out like a plane.
   void upload_stack(const std::string& name, const std::vector<const Plane*>& layers);
-  void allocate(const std::string& name, const Layout& layout);
+  void allocate(const std::string& name, const Layout& layout, bool is_list = false);
   /// Allocates a stack that is computed, filled with the value outside the image, which stays where nothing is computed.
   void allocate_stack(const std::string& name, const Layout& layout, size_t layers);
 

@@ -321,10 +321,14 @@ class KeyViewsRun {
 
 }  // namespace
 
+void build_passes(const Plan& plan, std::vector<ViewOnDevice>& targets, Device::Impl& device,
+                  const RunOptions& options) {
+  add_kernels(plan, targets, device, options, tuning_for(device.info, options));
+}
+
 void enqueue_passes(const Plan& plan, std::vector<ViewOnDevice>& targets, Device::Impl& device,
                     const RunOptions& options) {
   const Tuning tuning = tuning_for(device.info, options);
-  add_kernels(plan, targets, device, options, tuning);
   for_each_launch(plan, targets, [&](ViewOnDevice& target, size_t k) {
     told(plan, target, k, device, [&] { enqueue_pass(plan, target, k, device, tuning); });
   });

@@ -16,7 +16,11 @@ struct Counted {
 void run_all_views(const Plan& plan, const Frame& frame, Device::Impl& device, const RunOptions& options,
                    RunResult& result, Counted& counted);
 
-/// Enqueues all passes of views that are on the device together, and waits for none of them.
+/// Finds which passes run on which of the views that are on the device together, and builds their kernels.
+void build_passes(const Plan& plan, std::vector<ViewOnDevice>& targets, Device::Impl& device,
+                  const RunOptions& options);
+
+/// Enqueues these passes, and waits for none of them.
 void enqueue_passes(const Plan& plan, std::vector<ViewOnDevice>& targets, Device::Impl& device,
                     const RunOptions& options);
 

@@ -7,7 +7,7 @@
     "radius of the estimate to be filtered: the unit of depth_tolerance") \
   BILATERAL_PARAMS(P)                                                     \
   P(choice, form, separable, (separable, square),                         \
-    "one pass along rows and one along columns, or one pass over the whole square")
+    "along rows and then along columns, or over the whole square at once")
 
 PARAMS(BilateralParams, BILATERAL_FILTER_PARAMS)
 

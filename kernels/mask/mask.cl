@@ -60,7 +60,7 @@ kernel void mask_bits(ARGUMENTS) {
   RETURN_UNLESS_A_WORD_BEGINS(frame)
   uint word = 0;
   BITS_OF_WORD(word)
-  word = WHOLE_ROWS(word);
+  word = WHOLE_ROWS(word & bits_in_frame(frame, k));
   store_word(word & ASKED_WORD, wanted, frame, k);
   STORE_REST(~word & ASKED_WORD);
 }

@@ -91,8 +91,9 @@ static inline void add_neighbour(Sums* sums, Frame frame, TangentPlane plane, Gl
                  same_surface(plane, frame, step, load(depth, there), load3(normal_x, normal_y, normal_z, there));
   const mask counts = to_mask(to_natural(x + i) < (natural)((uint)frame.width));
   const real counted = choose(EVERY_LANE_IF(i == 0 && j == 0), (real)(1), choose(counts, w, (real)(0)));
-  sums->sum += counted * sum;
-  sums->weight += counted * weight;
+  // What lies beside the image may be NaN.
+  sums->sum += counted * choose(counts, sum, (real)(0));
+  sums->weight += counted * choose(counts, weight, (real)(0));
 }
 
 #define FOR_NEIGHBOURS(i, j)                        \

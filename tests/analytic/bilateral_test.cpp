@@ -7,8 +7,11 @@
 #include <random>
 
 #include "gloam/normalise.h"
+#include "gloam/run.h"
 #include "support/estimate.h"
 #include "support/stress.h"
+#include "support/techniques.h"
+#include "technique/ambient_occlusion.h"
 
 namespace gloam::test::bilateral_test {
 namespace {
@@ -224,6 +227,29 @@ TEST(Bilateral, RowsAndColumnsAlike) {
   const double plane = asymmetry(tilted_plane(2, 0.8, 0.5)), edges = asymmetry(room());
   std::printf("bilateral, rows against columns: %.2g on a plane, %.2g where edges make it inseparable\n", plane, edges);
   EXPECT_LE(plane, 1e-6);
+}
+
+/// A work-item that goes down the rows keeps what a pass of its own would have written: the same bits, however many rows are left over.
+TEST(BilateralSeparable, OnePassComputesWhatTwoPassesDo) {
+  for (const int height : {1, 3, 31, 32, 33, 70}) {
+    for (const char* half_width : {"1", "2", "4"}) {
+      Frame frame = shoot(perspective(50, height), room());
+      set_raw(frame, noise(7));
+      const Plan one = plan_for(find_technique("bilateral"), frame, {{"half_width", half_width}});
+      ASSERT_EQ(one.passes.size(), 1u);
+      Plan two = one;
+      two.passes.clear();
+      for (Pass& pass : bilateral_passes_along_axes(std::stoi(half_width), "ao_raw", "ao")) {
+        two.passes.push_back(one.passes.front());
+        two.passes.back().pass = std::move(pass);
+      }
+      for (const int lanes : {1, 4, 16}) {
+        const RunOptions options{.math = Math::precise, .lanes = lanes};
+        EXPECT_TRUE(same_bits(run(one, frame, device(), options).frame, run(two, frame, device(), options).frame))
+            << height << " rows, half width " << half_width << ", " << lanes << " lanes";
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ def test_planes_that_lie_well_are_used_in_place(caller, device):
 
 def test_interleaved_planes_are_copied_on_the_device(caller, device):
     depth, normal, ao = box(), level_normals(), np.zeros((HEIGHT, WIDTH), np.float32)
-    planes = {"depth": gloam.DevicePlane(caller.buffer(depth)), "normal": gloam.DevicePlane(caller.buffer(normal), step=12)}
+    planes = {"depth": gloam.DevicePlane(caller.buffer(depth)), "normal": gloam.DevicePlane(caller.buffer(normal))}
     written = caller.buffer(ao)
     done = gloam.enqueue("gtao", planes, {"ao": gloam.DevicePlane(written)}, size=(WIDTH, HEIGHT), camera=CAMERA, device=device, radius=1.0)
     assert done.copied == ["depth", "normal", "ao"]
@@ -132,6 +132,9 @@ def test_what_is_wrong_with_a_call_is_said(refusal):
     assert refusal(drops=["radius"]) == "radius=: none is given, and planes in a device's memory are not looked at to make one; give a radius"
     assert "gloam.Device(queue=...) is allowed" in refusal(device="pocl")
     assert "(width, height) is allowed" in refusal(size=7)
+    assert "(width, height) is allowed" in refusal(size=(None, 5))
+    assert "an empty list" in refusal(camera=[])
+    assert "a list of events is allowed" in refusal(wait_for=7)
     assert "a gloam.Camera is allowed" in refusal(camera=None)
     assert "given for 1 views, and there are 2 cameras" in refusal(camera=[CAMERA, CAMERA])
     assert refusal(repeat=3) == "repeat: does not go with planes in a device's memory; leave it out"
@@ -148,4 +151,6 @@ def test_what_is_wrong_with_a_plane_is_said(refusal):
     assert "an object of pyopencl is allowed" in refusal(planes=of(memory="memory"))
     assert "ends at byte" in refusal(planes=of(offset=64))
     assert "offset of plane 'depth' is -4" in refusal(planes=of(offset=-4))
+    assert refusal(planes={**of(), "normal": gloam.DevicePlane(refusal.memory, step=4)}) == (
+        "plane 'normal': a step of 4 bytes is given; its 3 components side by side take 12")
     assert "of another context" in refusal(planes=of(memory=Caller().buffer(box())))

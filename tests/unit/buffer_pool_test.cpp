@@ -47,6 +47,16 @@ TEST_F(Pool, LetsGoOfWhatTheLastRunsDidNotUse) {
   EXPECT_EQ(pool_.bytes(), 0u);
 }
 
+/// One run needed four; those after it need one, and do not keep the others by taking turns with them.
+TEST_F(Pool, LetsGoOfWhatIsTooMany) {
+  for (int i = 0; i < 4; ++i) pool_.give(cl::Buffer(context_, CL_MEM_READ_WRITE, 4096), 4096, 1);
+  for (int run = 0; run < 9; ++run) {
+    pool_.begin_run(0, 1 << 20);
+    EXPECT_FALSE(takes_new(4096, 1));
+  }
+  EXPECT_EQ(pool_.bytes(), 4096u);
+}
+
 TEST_F(Pool, MakesRoomForARunThatNeedsTheMemory) {
   EXPECT_TRUE(takes_new(4096, 1));
   pool_.begin_run(4096, 8192);

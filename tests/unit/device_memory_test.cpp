@@ -92,7 +92,7 @@ struct Computed {
 };
 
 Computed compute_on_device(const Plan& plan, const Frame& frame, const Caller& caller, const Form& inputs,
-                           const Form& results, bool is_clean = true) {
+                           const Form& results, bool is_clean, Device& device) {
   Memory memory(caller, frame.width(), frame.height());
   DeviceFrame given{frame.width(), frame.height(), {}};
   for (const View& view : frame.views) {
@@ -104,7 +104,6 @@ Computed compute_on_device(const Plan& plan, const Frame& frame, const Caller& c
     }
     for (const std::string& name : plan.outputs) to.results.push_back(memory.plane(name, results));
   }
-  Device device = device_of(caller.queue());
   Computed computed{without_planes(frame), enqueue(plan, given, device)};
   const cl_event done = computed.enqueued.done.get();
   EXPECT_EQ(clWaitForEvents(1, &done), CL_SUCCESS);
@@ -113,6 +112,12 @@ Computed compute_on_device(const Plan& plan, const Frame& frame, const Caller& c
       computed.frame.views[i].planes[result.name] = memory.read(result);
   }
   return computed;
+}
+
+Computed compute_on_device(const Plan& plan, const Frame& frame, const Caller& caller, const Form& inputs,
+                           const Form& results, bool is_clean = true) {
+  Device device = device_of(caller.queue());
+  return compute_on_device(plan, frame, caller, inputs, results, is_clean, device);
 }
 
 constexpr int width = 50, height = 33;
@@ -125,7 +130,8 @@ Form suitable() {
 /// AO from depth and normals, two eyes that look at one another, colours, layers, a list of pixels, several resolutions.
 TEST(DeviceMemory, GivesTheSameBitsAsARunAndCopiesNothing) {
   const Caller caller;
-  for (const char* name : {"gtao", "evidence", "stereo-ao", "indirect", "multires", "sssr", "sd-hbao+", "normals"}) {
+  for (const char* name :
+       {"gtao", "evidence", "stereo-ao", "indirect", "multires", "sssr", "sd-hbao+", "normals", "specular-occlusion"}) {
     const Technique& technique = find_technique(name);
     Frame frame = shoot(perspective(width, height), room());
     const Plan plan = plan_for(technique, frame, few_samples(technique));
@@ -155,6 +161,23 @@ TEST(DeviceMemory, TakesACallersPitchAndOffset) {
     const Computed mixed = compute_on_device(plan, frame, caller, wide, form);
     EXPECT_TRUE(same_bits(run.frame, mixed.frame));
     EXPECT_EQ(mixed.enqueued.copied, (Names{"ao", "ao_raw"}));
+  }
+}
+
+/// A table that spans rows and their padding, and memory that an earlier plan wrote.
+TEST(DeviceMemory, OfAWidePitchComputesTheSameAgain) {
+  const Caller caller;
+  const Form wide{256, 384, 4, 384 + 256};
+  for (const char* name : {"stereo-ao", "stereo-gtao", "evidence", "sssr"}) {
+    const Technique& technique = find_technique(name);
+    Frame frame = shoot(perspective(width, height), room());
+    const Plan plan = plan_for(technique, frame, few_samples(technique));
+    const RunResult run = gloam::run(plan, frame, device());
+    Device of_queue = device_of(caller.queue());
+    for (int time = 0; time < 3; ++time) {
+      const Computed computed = compute_on_device(plan, frame, caller, wide, wide, true, of_queue);
+      EXPECT_TRUE(same_bits(run.frame, computed.frame)) << name;
+    }
   }
 }
 
@@ -235,6 +258,8 @@ TEST_F(Refusals, SayWhatDoesNotFit) {
   const DeviceChannel before = channel;
   channel.offset += 320;
   EXPECT_EQ(refusal(), "plane 'depth' of view '': it ends at byte 8968 of a buffer of 8960");
+  channel.offset = size_t(-256);
+  EXPECT_NE(refusal().find("it ends behind its buffer of 8960"), std::string::npos) << refusal();
   channel = before;
   channel.offset = 2;
   EXPECT_NE(refusal().find("multiples of 4 are allowed"), std::string::npos) << refusal();
@@ -259,6 +284,48 @@ TEST(DeviceMemory, AQueueWithoutOrderIsRefused) {
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("runs commands out of order"), std::string::npos) << error.what();
   }
+}
+
+/// multiview makes AO for the first view alone.
+TEST_F(Refusals, NameAResultThatNoPassMakes) {
+  const Plan plan = make_plan({.outputs = {"multiview"}, .settings = {{"samples", "1"}}, .radius = 0.5},
+                              {"depth", "normal", "stochastic.00"}, "");
+  view().planes.clear();
+  for (const std::string& name : plan.inputs) view().planes.push_back(memory_.plane(name, suitable()));
+  frame_.views.push_back(frame_.views.front());
+  frame_.views[0].name = "first", frame_.views[1].name = "second";
+  frame_.views[0].camera->pose = frame_.views[1].camera->pose = Pose{};
+  try {
+    enqueue(plan, frame_, device_);
+    FAIL() << "it was taken";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "result 'ao' of view 'second': no pass makes it in this view; leave it out");
+  }
+  frame_.views[1].results.clear();
+  EXPECT_NO_THROW(enqueue(plan, frame_, device_));
+  caller_.queue.finish();
+}
+
+TEST_F(Refusals, OfMemoryThatKernelsMayNotUse) {
+  const size_t bytes = device_layout(width, height).bytes;
+  const cl::Buffer unwritable(caller_.context, CL_MEM_READ_ONLY, bytes),
+      unreadable(caller_.context, CL_MEM_WRITE_ONLY, bytes);
+  view().results.front().channels.front().memory = unwritable();
+  EXPECT_EQ(refusal(), "result 'ao' of view '': kernels may not write its memory (CL_MEM_READ_ONLY)");
+  view().results.clear();
+  view().planes.front().channels.front().memory = unreadable();
+  EXPECT_EQ(refusal(), "plane 'depth' of view '': kernels may not read its memory (CL_MEM_WRITE_ONLY)");
+}
+
+/// Three planes side by side in one buffer that is only read.
+TEST_F(Refusals, DoNotMeetPartsOfOneBuffer) {
+  const DeviceLayout layout = device_layout(width, height);
+  const size_t aligned = (layout.bytes + 4095) / 4096 * 4096;
+  const cl::Buffer all(caller_.context, CL_MEM_READ_ONLY, 3 * aligned);
+  DevicePlane& normal = view().planes.back();
+  for (size_t i = 0; i < 3; ++i) normal.channels[i] = {all(), layout.offset + i * aligned, 4};
+  normal.is_clean = true;
+  EXPECT_EQ(refusal(), "");
 }
 
 TEST_F(Refusals, LeaveTheDeviceUsable) {

@@ -67,7 +67,7 @@ TEST(Run, OnADeviceWithMemoryOfItsOwnComputesTheSame) {
   own.impl().info.shares_memory = false;
   for (const char* name : {"evidence", "dp-gtao", "stereo-gtao", "sssr", "lightfield-hbao+", "evidence"}) {
     const Technique& technique = find_technique(name);
-    Frame frame = shoot(perspective(48, 32), room());
+    Frame frame = shoot(perspective(50, 33), room());
     const Plan plan = plan_for(technique, frame, few_samples(technique));
     const Frame expected = run(plan, frame, device()).frame;
     for (int time = 0; time < 2; ++time) EXPECT_TRUE(same_bits(expected, run(plan, frame, own).frame)) << name;

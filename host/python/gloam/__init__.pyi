@@ -75,7 +75,7 @@ class DevicePlane(NamedTuple):
     memory: Any
     offset: int = 0
     pitch: int = 0
-    step: int = 4
+    step: int = 0
     is_clean: bool = False
 
 class Enqueued:
@@ -214,7 +214,8 @@ def run(technique: str, frame: Union[Frame, Path, _Sequence[Path], None] = None,
         settings: Optional[Dict[str, Setting]] = None, normal_space: Optional[str] = None, normal_range: Optional[str] = None,
         normal_axes: Optional[str] = None, **keywords: Any) -> Result: ...
 def device_layout(width: int, height: int) -> DeviceLayout: ...
-def enqueue(technique: str, planes: Dict[str, Union[DevicePlane, List[DevicePlane]]], results: Dict[str, Union[DevicePlane, List[DevicePlane]]], *,
+def enqueue(technique: str, planes: Dict[str, Union[DevicePlane, List[DevicePlane]]],
+            results: Dict[str, Union[DevicePlane, List[Optional[DevicePlane]]]], *,
             size: Tuple[int, int], camera: Union[Camera, List[Camera]], device: Device, wait_for: _Sequence[Any] = (),
             settings: Optional[Dict[str, Setting]] = None, **keywords: Any) -> Enqueued: ...
 def auto(frame: Union[Frame, Path, _Sequence[Path], None] = None, *, budget: Optional[float] = None, error: Optional[float] = None,

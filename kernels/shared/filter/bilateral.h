@@ -1,6 +1,5 @@
 // Taps of a cross-bilateral filter, along one axis or over both at once. A tap counts by its distance on the screen, by its
 // distance from the pixel's tangent plane and by the angle between the normals; each of the three weights ends at 0.
-// -D COLUMNS, ROWS: taps to the left and to the right, above and below
 #ifndef GLOAM_BILATERAL_H
 #define GLOAM_BILATERAL_H
 

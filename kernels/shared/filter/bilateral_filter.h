@@ -71,7 +71,7 @@ static inline int is_tap_of(uint rows, int y, int first) {
 }
 
 // The filter along the rows and then along the columns. A work-item goes down, and keeps the last 2 ROWS + 1 rows filtered along the row:
-// every plane is read once.
+// every plane comes from memory once.
 //
 // in : source, depth, normal; wanted
 // out: result
@@ -91,8 +91,8 @@ kernel void bilateral_separable(ARGUMENTS) {
       expect_row(here + ROWS_AHEAD * frame.pitch + LANES, sources, depth, normal_x, normal_y, normal_z);
       const TangentPlane plane = filter_plane(frame, params, last, here, depth, normal_x, normal_y, normal_z);
       Taps taps;
-  sum_taps_around(&taps, frame, plane, FIRST_X + IOTA, last, here, COLUMNS, 0, sources, depth, normal_x,
-                                    normal_y, normal_z);
+      sum_taps_around(&taps, frame, plane, FIRST_X + IOTA, last, here, COLUMNS, 0, sources, depth, normal_x, normal_y,
+                      normal_z);
       means_of(taps, !is_background(load(depth, here)), NO_RESULT, along_rows + 2 * ROWS * COMPONENTS);
     }
     const int y = last - ROWS, here = index_of(frame, FIRST_X, y);

@@ -19,8 +19,7 @@ static inline uint bits_in_frame(Frame f, int k) {
   return left >= 32 ? 0xffffffffu : (1u << left) - 1;
 }
 
-// Bit i: the mask of lane i. In one instruction where there is one; besides, an AMD EPYC takes 40 ns for a constant chosen by a mask of 16 lanes
-// none of which is set.
+// Bit i: the mask of lane i. In one instruction where there is one. (`m ? constants : 0` takes an AMD EPYC 40 ns where no lane is set.)
 static inline uint bit_of_each_lane(mask m) {
 #if LANES == 1
   return m ? 1u : 0u;

@@ -24,7 +24,7 @@ Device device_of(cl_command_queue queue);
 /// One component of a plane: floats in a buffer of the device's context.
 struct DeviceChannel {
   cl_mem memory = nullptr;
-  size_t offset = 0;  ///< bytes from the buffer's begin to pixel (0, 0)
+  size_t offset = 0;  ///< bytes from the beginning of the buffer to pixel (0, 0)
   size_t step = 4;    ///< bytes from one pixel to the next: 16 for one component of four side by side
 };
 
@@ -34,8 +34,9 @@ struct DevicePlane {
   std::vector<DeviceChannel> channels = {};
   size_t pitch = 0;  ///< bytes from one row to the next; 0: the width, tight
   /// The caller answers for every pixel: depth from 1e-30 to 1e10 or +inf, no NaN, normals of unit length or zero. Such a plane is read in
-  /// place; other values in it can make kernels read outside of the buffers. Any other plane is copied on the device, with what is no
-  /// such value replaced, as `normalise` (normalise.h) does. Of results it says nothing.
+  /// place; other values in it can make kernels read outside of the buffers. Any other plane is copied on the device: depth out of that
+  /// range becomes +inf, and elsewhere NaN and components out of the plane's range become 0, or what background has. Of results it says
+  /// nothing.
   bool is_clean = false;
 };
 
@@ -57,9 +58,10 @@ struct DeviceLayout {
   size_t pitch, offset, bytes;  ///< of rows; of pixel (0, 0); of the whole buffer
 };
 
-/// A plane in a buffer of its own of this layout is used in place. So is any other of the same pitch, where that is a multiple of 64 bytes,
-/// with a step of 4 and 256 bytes of the buffer before the first row and after the last, where the first of these is aligned as
-/// CL_DEVICE_MEM_BASE_ADDR_ALIGN says (kernels read, and ignore, what lies there, and may write to the end of a row).
+/// A plane in a buffer of its own of this layout is used in place. So is any other of the same pitch, where that is a multiple of 64 bytes and
+/// at most twice the one here, with a step of 4 and 256 bytes of the buffer before the first row and after the last, where the first of these
+/// is aligned as CL_DEVICE_MEM_BASE_ADDR_ALIGN says. Kernels read these bytes, which must not be NaN, and use nothing of them; they write the
+/// whole pitch of a result's rows.
 DeviceLayout device_layout(int width, int height);
 
 /// What has been enqueued.
@@ -72,8 +74,8 @@ struct Enqueued {
 /// Enqueues a plan's passes and returns, without waiting for them. Buffers must live until then; results are whole once `done` is. The planes
 /// are as kernels expect them: depth in scene units along the viewing axis, +inf on the background; normals of unit length in view
 /// space. Pixels are not looked at, so a plan with a radius needs one in its request. `wait_for`: events before which nothing begins.
-/// Throws as `run` does, and Error for planes that are missing, unknown, twice there, too small for their buffer, or of another context, and
-/// for plans over the key views of a light-field display.
+/// `RunOptions::repeat` has to be 1, and `progress` is not called. Throws as `run` does, and Error for planes that are missing, unknown, given
+/// twice, too large for their buffer, or of another context, for results that no pass makes, and for plans over the key views of a light-field display.
 Enqueued enqueue(const Plan& plan, const DeviceFrame& frame, Device& device, const RunOptions& options = {},
                  const std::vector<cl_event>& wait_for = {});
 
