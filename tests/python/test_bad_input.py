@@ -262,9 +262,9 @@ def test_strips_are_offered_where_they_work(depth, camera):
 def test_a_frame_larger_than_the_device_is_computed_in_strips():
     done = in_new_process("""
 import numpy, gloam
-z = numpy.full((6400, 6400), 5, numpy.float32)
+z = numpy.full((6720, 6720), 5, numpy.float32)
 z[3000:3100, 3000:3100] = 4.95
-call = dict(depth=z, camera=gloam.Camera(6000, 6000, 3200, 3200), radius=0.1, outputs=["ao"], preset="low")
+call = dict(depth=z, camera=gloam.Camera(6000, 6000, 3360, 3360), radius=0.1, outputs=["ao"], preset="low")
 try:
     gloam.run("hbao", **call)
 except gloam.Error as error:
@@ -272,7 +272,7 @@ except gloam.Error as error:
 result = gloam.run("hbao", **call, strips="auto")
 print(result["ao"].shape, float(result["ao"].min()) < 0.97, result.device_bytes < 1 << 30)
 """, POCL_MEMORY_LIMIT="1")
-    assert done.stdout == "refused\n(6400, 6400) True True\n", done.stdout + done.stderr
+    assert done.stdout == "refused\n(6720, 6720) True True\n", done.stdout + done.stderr
 
 
 def test_a_forked_process_is_told():
