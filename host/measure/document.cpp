@@ -11,6 +11,7 @@
 #include "gloam/planes.h"
 #include "measure/commit.h"
 #include "measure/intervals.h"
+#include "measure/naive.h"
 #include "results/bound.h"
 
 namespace gloam::bench {
@@ -61,11 +62,6 @@ std::optional<double> samples_of(const Row& row) {
 
 const char* resolution_name(int resolution) { return resolution == 1 ? "full" : resolution == 2 ? "half" : "quarter"; }
 
-bool is_listed(const Pass& pass) {
-  return std::any_of(pass.defines.begin(), pass.defines.end(),
-                     [](const auto& define) { return define.first == "LISTED" && define.second != 0; });
-}
-
 /// Adds what a plan says of a pass to what was counted of it.
 void add_planes(report::PassCount& count, const PlannedPass& planned) {
   const Pass& pass = planned.pass;
@@ -88,7 +84,7 @@ std::vector<report::Pass> passes_of(const Row& row) {
     for (const PlannedPass& planned : row.timed->plan().passes) {
       if (!count || planned.label() != pass.name) continue;
       // How many pixels are on a list depends on the frame.
-      if (is_listed(planned.pass))
+      if (define_of(planned.pass, "LISTED") != 0)
         count.reset();
       else
         add_planes(*count, planned);

@@ -16,15 +16,8 @@ struct NaiveSettings {
   int directions, steps, columns, rows;
 };
 
-/// 0 if the technique has no such parameter, or the pass no such define.
+/// 0 if the technique has no such parameter.
 double number_of(const ParameterValues& values, const char* name) { return values.has(name) ? values.number(name) : 0; }
-int define_of(const Pass& pass, const std::string& name) {
-  for (const auto& [defined, value] : pass.defines) {
-    if (defined == name) return value;
-  }
-  return 0;
-}
-
 NaiveSettings settings_of(const PlannedPass& planned, int width) {
   const auto number = [&](const char* name) { return number_of(planned.values, name); };
   return {.radius = float(number("radius")),
@@ -56,6 +49,13 @@ std::string options(const NaiveSettings& settings, Counts counts) {
 }
 
 }  // namespace
+
+int define_of(const Pass& pass, const std::string& name) {
+  for (const auto& [defined, value] : pass.defines) {
+    if (defined == name) return value;
+  }
+  return 0;
+}
 
 const std::vector<NaiveKernel>& naive_kernels() {
   // The estimates clamp to the border and have no options. Tolerance of GTAO: an arc's mass in slice.h is off by up to 1.5e-3.

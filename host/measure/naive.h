@@ -12,6 +12,9 @@
 
 namespace gloam::bench {
 
+/// The value of a define of a pass; 0 if it has none of the name.
+int define_of(const Pass& pass, const std::string& name);
+
 /// Loop counts as arguments, or known to the compiler.
 enum class Counts { at_run_time, unrolled };
 

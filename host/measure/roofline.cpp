@@ -14,8 +14,8 @@ std::optional<PassCount> count_of(const std::string& technique, const std::strin
     if (found == at->end()) return {};
     at = &*found;
   }
-  return PassCount{at->at("operations"), at->at("loads"), at->at("bytes_loaded"), at->at("bytes_stored"),
-                   at->at("instructions"), at->at("float_instructions")};
+  return PassCount{at->at("operations"),   at->at("loads"),        at->at("bytes_loaded"),
+                   at->at("bytes_stored"), at->at("instructions"), at->at("float_instructions")};
 }
 
 }  // namespace gloam::bench

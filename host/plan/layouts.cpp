@@ -16,6 +16,16 @@ std::set<std::string> planes_of(const Plan& plan) {
   return planes;
 }
 
+std::set<std::string> lists_of(const Plan& plan) {
+  std::set<std::string> lists;
+  for (const PlannedPass& planned : plan.passes) {
+    for (const Binding& written : planned.pass.writes) {
+      if (written.starts_empty) lists.insert(written.plane);
+    }
+  }
+  return lists;
+}
+
 size_t layers_in_buffer(const Plan& plan, const std::string& name) {
   if (const auto stack = plan.stacks.find(name); stack != plan.stacks.end()) return stack->second.size();
   // Two techniques may make stacks of the same name, one after the other.

@@ -13,6 +13,9 @@ namespace gloam {
 /// Every plane and stack that a plan's passes touch.
 std::set<std::string> planes_of(const Plan& plan);
 
+/// The planes that passes use as lists (`Binding::starts_empty`).
+std::set<std::string> lists_of(const Plan& plan);
+
 /// Number of planes of one channel that share a buffer: the layers of a stack; 1 for other planes.
 size_t layers_in_buffer(const Plan& plan, const std::string& name);
 

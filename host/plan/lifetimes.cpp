@@ -23,6 +23,7 @@ std::vector<Lifetime> lifetimes(const Plan& plan) {
   std::set<std::string> kept(plan.inputs.begin(), plan.inputs.end());
   kept.insert(plan.outputs.begin(), plan.outputs.end());
   kept.insert({plan.wanted, plan.rest});
+  kept.merge(lists_of(plan));
   const auto touch = [&](const std::string& plane, size_t pass, bool writes) {
     const auto known = std::find_if(lives.begin(), lives.end(), [&](const Lifetime& l) { return l.plane == plane; });
     if (known != lives.end()) {
@@ -36,10 +37,7 @@ std::vector<Lifetime> lifetimes(const Plan& plan) {
   for (size_t k = 0; k < plan.passes.size(); ++k) {
     const Pass& pass = plan.passes[k].pass;
     for (const Binding& read : pass.reads) touch(read.plane, k, false);
-    for (const Binding& written : pass.writes) {
-      if (written.starts_empty) kept.insert(written.plane);
-      touch(written.plane, k, true);
-    }
+    for (const Binding& written : pass.writes) touch(written.plane, k, true);
   }
   std::erase_if(lives, [&](const Lifetime& life) { return kept.contains(life.plane); });
   return lives;

@@ -5,6 +5,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -36,6 +37,9 @@ inline py::list texts_of(const std::vector<std::string>& texts) {
   for (const std::string& text : texts) list.append(text_of(text));
   return list;
 }
+
+/// The address of an OpenCL object: of one of pyopencl, or a whole number. `what`: in the error's sentence.
+std::uintptr_t handle_of(const std::string& what, const py::object& given);
 
 void add_errors(py::module_& module);
 void add_camera(py::module_& module);

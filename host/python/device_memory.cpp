@@ -109,6 +109,17 @@ void wait(const Enqueued& enqueued) {
 
 }  // namespace
 
+std::uintptr_t handle_of(const std::string& what, const py::object& given) {
+  const py::object address = py::getattr(given, "int_ptr", given);
+  if (py::isinstance<py::int_>(address) && !py::isinstance<py::bool_>(address)) {
+    const unsigned long long number = PyLong_AsUnsignedLongLong(address.ptr());
+    if (!PyErr_Occurred() && number > 0) return number;
+    PyErr_Clear();
+  }
+  throw UsageError("{} is of type {}; an object of pyopencl is allowed, or its address, a whole number above 0", what,
+                   py::cast<std::string>(py::type::of(given).attr("__name__")));
+}
+
 void add_device_memory(py::module_& module) {
   py::class_<Enqueued>(module, "Enqueued", enqueued_help)
       .def_property_readonly("int_ptr", [](const Enqueued& self) { return reinterpret_cast<Handle>(self.done.get()); })
@@ -116,6 +127,7 @@ void add_device_memory(py::module_& module) {
       .def_readonly("device_bytes", &Enqueued::device_bytes)
       .def("wait", &wait);
   module.def("enqueue", &enqueue_on);
+  module.def("handle", &handle_of);
   module.def("device_layout", [](int width, int height) {
     const DeviceLayout layout = device_layout(width, height);
     return py::make_tuple(layout.pitch, layout.offset, layout.bytes);

@@ -34,10 +34,8 @@ std::string in_words(const DeviceInfo& info) {
 
 /// The device of a caller's queue: an object of pyopencl, or its address.
 std::shared_ptr<Device> of_queue(const py::object& queue) {
-  const py::object address = py::module_::import("gloam._device_memory").attr("handle")("queue", queue);
-  return without_lock([&, number = py::cast<std::uintptr_t>(address)](Interrupts&) {
-    return std::make_shared<Device>(device_of(reinterpret_cast<cl_command_queue>(number)));
-  });
+  const auto handle = reinterpret_cast<cl_command_queue>(handle_of("queue", queue));
+  return without_lock([&](Interrupts&) { return std::make_shared<Device>(device_of(handle)); });
 }
 
 }  // namespace

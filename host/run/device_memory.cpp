@@ -333,14 +333,6 @@ cl::Event enqueue_all(const Plan& plan, const DeviceFrame& frame, const Frame& h
   return done;
 }
 
-/// An error leaves nothing under way that uses the caller's buffers.
-void end_all(cl::CommandQueue& queue) {
-  try {
-    queue.finish();
-  } catch (const cl::Error&) {  // the error under way says it
-  }
-}
-
 }  // namespace
 
 Device device_of(cl_command_queue queue) {
@@ -387,11 +379,7 @@ Enqueued enqueue(const Plan& plan, const DeviceFrame& frame, Device& device, con
     enqueued.done = {done(), [](cl_event event) { clReleaseEvent(event); }};
     return enqueued;
   } catch (const cl::Error& error) {
-    end_all(impl.queue);
     throw Error("{} on {}: {} ({})", plan.technique, impl.info.name, error.what(), cl_error_name(error.err()));
-  } catch (const Error&) {
-    end_all(impl.queue);
-    throw;
   }
 }
 

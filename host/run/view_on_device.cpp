@@ -40,17 +40,6 @@ void upload_inputs(const Plan& plan, ViewOnDevice& target) {
   }
 }
 
-/// The planes that passes use as lists.
-std::set<std::string> lists_of(const Plan& plan) {
-  std::set<std::string> lists;
-  for (const PlannedPass& planned : plan.passes) {
-    for (const Binding& written : planned.pass.writes) {
-      if (written.starts_empty) lists.insert(written.plane);
-    }
-  }
-  return lists;
-}
-
 }  // namespace
 
 void allocate_computed(const Plan& plan, ViewOnDevice& target) {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <set>
 
 #include "base/lists.h"
 #include "gloam/error.h"
@@ -57,17 +56,6 @@ void add_kernel(const Plan& plan, size_t k, ViewOnDevice& target, const OtherVie
   for (const Binding& written : planned.pass.writes) target.planes.insert(written.plane);
 }
 
-/// Finds which passes run on which views, and builds their kernels.
-void add_kernels(const Plan& plan, std::vector<ViewOnDevice>& targets, Device::Impl& device, const RunOptions& options,
-                 const Tuning& tuning) {
-  for (size_t k = 0; k < plan.passes.size(); ++k) {
-    for (size_t i = 0; i < targets.size(); ++i) {
-      const OtherViews others{.other = targets.size() == 2 ? &targets[1 - i] : nullptr};
-      if (runs_on(plan.passes[k], targets[i], i)) add_kernel(plan, k, targets[i], others, device, options, tuning);
-    }
-  }
-}
-
 /// Runs every pass on all views before the next pass, which may read results of the other view.
 template <typename Function>
 void for_each_launch(const Plan& plan, std::vector<ViewOnDevice>& targets, const Function& function) {
@@ -105,13 +93,9 @@ void count(const Plan& plan, ViewOnDevice& target, int lanes, bool in_full, Coun
 }
 
 void count_listed(const Plan& plan, ViewOnDevice& target, std::map<std::string, long long>& listed) {
-  std::set<std::string> lists;
-  for (const size_t k : target.passes) {
-    for (const Binding& written : plan.passes[k].pass.writes) {
-      if (written.starts_empty) lists.insert(written.plane);
-    }
+  for (const std::string& list : lists_of(plan)) {
+    if (target.planes.contains(list)) listed[list] += target.buffers.length_of_list(list);
   }
-  for (const std::string& list : lists) listed[list] += target.buffers.length_of_list(list);
 }
 
 /// Calls a function; an error of OpenCL's names pass `k` of a target.
@@ -217,7 +201,7 @@ void run_views(const Plan& plan, const Frame& frame, const std::vector<const Vie
                const RunOptions& options, const Tuning& tuning, RunResult& result, Counted& counted) {
   std::vector<ViewOnDevice> targets;
   for (const View* view : views) targets.push_back(view_on_device(plan, frame, *view, device));
-  add_kernels(plan, targets, device, options, tuning);
+  build_passes(plan, targets, device, options);
   size_t count_of_kernels = 0;
   for (const ViewOnDevice& target : targets) count_of_kernels += target.kernels.size();
   Launches launches(plan, device, options, tuning, int(count_of_kernels));
@@ -323,7 +307,13 @@ class KeyViewsRun {
 
 void build_passes(const Plan& plan, std::vector<ViewOnDevice>& targets, Device::Impl& device,
                   const RunOptions& options) {
-  add_kernels(plan, targets, device, options, tuning_for(device.info, options));
+  const Tuning tuning = tuning_for(device.info, options);
+  for (size_t k = 0; k < plan.passes.size(); ++k) {
+    for (size_t i = 0; i < targets.size(); ++i) {
+      const OtherViews others{.other = targets.size() == 2 ? &targets[1 - i] : nullptr};
+      if (runs_on(plan.passes[k], targets[i], i)) add_kernel(plan, k, targets[i], others, device, options, tuning);
+    }
+  }
 }
 
 void enqueue_passes(const Plan& plan, std::vector<ViewOnDevice>& targets, Device::Impl& device,

@@ -306,6 +306,20 @@ TEST_F(Refusals, NameAResultThatNoPassMakes) {
   caller_.queue.finish();
 }
 
+/// The queue may wait for the caller, who waits for the call.
+TEST_F(Refusals, DoNotWaitForTheQueue) {
+  view().planes.pop_back();
+  const Plan plan = make_plan({.outputs = {"normals"}}, {"depth"}, "");
+  view().results = {memory_.plane("normal", suitable())};
+  cl::UserEvent go(caller_.context);
+  enqueue(plan, frame_, device_, {}, {go()});
+  frame_.views.push_back(frame_.views.front());
+  frame_.views.back().results.front().name = "ao";
+  EXPECT_THROW(enqueue(plan, frame_, device_, {}, {go()}), Error);
+  go.setStatus(CL_COMPLETE);
+  caller_.queue.finish();
+}
+
 TEST_F(Refusals, OfMemoryThatKernelsMayNotUse) {
   const size_t bytes = device_layout(width, height).bytes;
   const cl::Buffer unwritable(caller_.context, CL_MEM_READ_ONLY, bytes),

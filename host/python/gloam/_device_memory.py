@@ -26,14 +26,6 @@ def device_layout(width, height):
     return DeviceLayout(*_gloam.device_layout(_words.integer("width", width), _words.integer("height", height)))
 
 
-def handle(what, given):
-    """The address of an OpenCL object."""
-    address = getattr(given, "int_ptr", given)
-    if isinstance(address, bool) or not isinstance(address, int) or not 0 < address < 1 << 64:
-        raise _words.refusal(f"{what} is of type {type(given).__name__}; an object of pyopencl is allowed, or its address, a whole number above 0")
-    return address
-
-
 def _described(name, plane):
     """A plane as the compiled part takes it."""
     if not isinstance(plane, DevicePlane):
@@ -43,7 +35,7 @@ def _described(name, plane):
         if isinstance(number, bool) or not isinstance(number, (int, numpy.integer)) or not 0 <= number < 1 << 63:
             raise _words.refusal(f"{field} of plane '{name}' is {number!r}; bytes are allowed, 0 or more")
     buffers = plane.memory if isinstance(plane.memory, (list, tuple)) else [plane.memory]
-    handles = [handle(f"memory of plane '{name}'", buffer) for buffer in buffers]
+    handles = [_gloam.handle(f"memory of plane '{name}'", buffer) for buffer in buffers]
     return handles, int(plane.offset), int(plane.step), int(plane.pitch), bool(plane.is_clean)
 
 
@@ -91,5 +83,5 @@ def enqueue(technique, planes, results, *, size, camera, device, wait_for=(), se
     pixels = tuple(_words.integer("size", number) for number in size)
     if not isinstance(wait_for, (list, tuple)):
         raise _words.refusal(f"wait_for is of type {type(wait_for).__name__}; a list of events is allowed")
-    events = [handle("an event of wait_for", event) for event in wait_for]
+    events = [_gloam.handle("an event of wait_for", event) for event in wait_for]
     return _gloam.enqueue(words, pixels, views, device, run_words, events)

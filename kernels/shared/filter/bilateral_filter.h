@@ -49,21 +49,8 @@ kernel void bilateral(ARGUMENTS) {
   store_means(means, results, here);
 }
 #else
-#ifndef ROWS_OF_ITEM
-#define ROWS_OF_ITEM 16
-#endif
-
 // So many rows further down the planes are told to a CPU: going down a column, it does not see by itself what comes next.
 #define ROWS_AHEAD 4
-
-static inline void expect_row(int i, Sources sources, PLANE depth, PLANE normal_x, PLANE normal_y, PLANE normal_z) {
-#pragma unroll
-  for (int c = 0; c < COMPONENTS; ++c) expect_load(sources.planes[c], i);
-  expect_load(depth, i);
-  expect_load(normal_x, i);
-  expect_load(normal_y, i);
-  expect_load(normal_z, i);
-}
 
 // Whether row y is among the taps of one of `rows` (WANTED_ROWS from `first` on).
 static inline int is_tap_of(uint rows, int y, int first) {
@@ -88,7 +75,10 @@ kernel void bilateral_separable(ARGUMENTS) {
     for (int k = 0; k < 2 * ROWS * COMPONENTS; ++k) along_rows[k] = along_rows[k + COMPONENTS];
     if (last < frame.height && is_tap_of(rows, last, first)) {
       const int here = index_of(frame, FIRST_X, last);
-      expect_row(here + ROWS_AHEAD * frame.pitch + LANES, sources, depth, normal_x, normal_y, normal_z);
+      const int ahead = here + ROWS_AHEAD * frame.pitch + LANES;
+      expect_surface(depth, normal_x, normal_y, normal_z, ahead);
+#pragma unroll
+      for (int c = 0; c < COMPONENTS; ++c) expect_load(sources.planes[c], ahead);
       const TangentPlane plane = filter_plane(frame, params, last, here, depth, normal_x, normal_y, normal_z);
       Taps taps;
       sum_taps_around(&taps, frame, plane, FIRST_X + IOTA, last, here, COLUMNS, 0, sources, depth, normal_x, normal_y,

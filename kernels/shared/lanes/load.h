@@ -42,6 +42,15 @@ static inline void expect_load(global const float* plane, int i) {
 #endif
 }
 
+// As expect_load, for depth and normals.
+static inline void expect_surface(global const float* depth, global const float* normal_x, global const float* normal_y,
+                                  global const float* normal_z, int i) {
+  expect_load(depth, i);
+  expect_load(normal_x, i);
+  expect_load(normal_y, i);
+  expect_load(normal_z, i);
+}
+
 static inline real3 load3(PLANE x, PLANE y, PLANE z, int i) { return make3(load(x, i), load(y, i), load(z, i)); }
 
 // Values of a plane at one index per lane.

@@ -116,11 +116,7 @@ static inline Receiver receiver_at(Frame frame, scalar radius, scalar max_reach,
                            load3(normal_x, normal_y, normal_z, here));
   set_pixels(&r, frame, x, (integer)(y), here, IOTA);
   // The row below, which comes after the rest of this one: a CPU's own prefetching does not foresee the step down.
-  const int below = here + frame.pitch;
-  expect_load(depth, below);
-  expect_load(normal_x, below);
-  expect_load(normal_y, below);
-  expect_load(normal_z, below);
+  expect_surface(depth, normal_x, normal_y, normal_z, here + frame.pitch);
   return r;
 }
 

@@ -75,7 +75,8 @@ struct Enqueued {
 /// are as kernels expect them: depth in scene units along the viewing axis, +inf on the background; normals of unit length in view
 /// space. Pixels are not looked at, so a plan with a radius needs one in its request. `wait_for`: events before which nothing begins.
 /// `RunOptions::repeat` has to be 1, and `progress` is not called. Throws as `run` does, and Error for planes that are missing, unknown, given
-/// twice, too large for their buffer, or of another context, for results that no pass makes, and for plans over the key views of a light-field display.
+/// twice, too large for their buffer, or of another context, for results that no pass makes, and for plans over the key views of a light-field display. What was enqueued before an
+/// error still runs: clFinish waits for it.
 Enqueued enqueue(const Plan& plan, const DeviceFrame& frame, Device& device, const RunOptions& options = {},
                  const std::vector<cl_event>& wait_for = {});
 
