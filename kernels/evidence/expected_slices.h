@@ -140,14 +140,10 @@ static inline __attribute__((always_inline)) void take_occluder(const Side* s, S
   closed->lowest = choose(counts, smaller(twice_cosine, closed->lowest), closed->lowest);
   const real high = smaller(quick_sectors_below(twice_cosine, s->scale), (real)(MOST_SECTORS));
   const real along = multiply_add(s->sine, thickness, p.along), above = multiply_add(-s->cosine, thickness, p.above);
+  const real square = multiply_add(along, along, multiply_add(above, above, (real)(1e-30f)));
+  const real back = quick_sectors_below(along * quick_twice_inverse_sqrt(square), s->scale);
   // A back below the tangent closes everything below the front.
-  real low = (real)(0);
-  const mask floats = counts & (above > 0);
-  if (ANY(floats)) {
-    const real square = multiply_add(along, along, multiply_add(above, above, (real)(1e-30f)));
-    const real back = quick_sectors_below(along * quick_twice_inverse_sqrt(square), s->scale);
-    low = choose(floats, smaller(back, high), low);
-  }
+  const real low = choose(above > 0, smaller(back, high), (real)(0));
   closed->covered |= sectors_between(low, high) & bits_of(counts);
 }
 
