@@ -10,14 +10,16 @@
 namespace gloam {
 namespace {
 
-size_t largest_divisor(size_t number, size_t most) {
-  while (number % most != 0) --most;
-  return most;
-}
-
 size_t largest_power_of_two(size_t most) {
   size_t power = 1;
   while (2 * power <= most) power *= 2;
+  return power;
+}
+
+/// The largest power of two, at most `most`, that divides a number.
+size_t power_of_two_in(size_t number, size_t most) {
+  size_t power = largest_power_of_two(most);
+  while (number % power != 0) power /= 2;
   return power;
 }
 
@@ -28,13 +30,9 @@ cl::NDRange group_size(const DeviceInfo& info, size_t columns, size_t rows, size
   if (most == 0) return cl::NullRange;
   constexpr size_t few_items = 1 << 14, widest = 32;
   if (info.type == "cpu" && columns * rows < few_items) return cl::NDRange(1, 1);
-  if (info.type == "cpu") {
-    const size_t width = largest_divisor(columns, std::min(most, widest));
-    return cl::NDRange(width, largest_divisor(rows, most / width));
-  }
+  if (info.type == "cpu") return cl::NDRange(power_of_two_in(columns, std::min(most, widest)), 1);
   // Whole warps, and as many rows whatever the height is: the rows that are left over are a launch of their own.
-  size_t width = largest_power_of_two(std::min(most, widest));
-  while (columns % width != 0) width /= 2;
+  const size_t width = power_of_two_in(columns, std::min(most, widest));
   return cl::NDRange(width, std::min(largest_power_of_two(most / width), largest_power_of_two(rows)));
 }
 
@@ -59,6 +57,18 @@ size_t items_down(const DeviceInfo& info, const Pass& pass, const Layout& layout
   return (size_t(layout.height) + each - 1) / each;
 }
 
+/// Items of an image, `items` from `from` on.
+void enqueue(Device::Impl& device, cl::Kernel& kernel, const cl::NDRange& from, const cl::NDRange& items,
+             const cl::NDRange& group, cl::Event* event) {
+  // PoCL compiles a kernel once for launches that begin at 0 and once for all others, for a quarter of a second or more each. No launch
+  // begins at 0 in a third dimension, which kernels know nothing of.
+  if (device.info.type == "cpu" && group.dimensions() == 2)
+    device.queue.enqueueNDRangeKernel(kernel, cl::NDRange(from[0], from[1], 1), cl::NDRange(items[0], items[1], 1),
+                                      cl::NDRange(group[0], group[1], 1), nullptr, event);
+  else
+    device.queue.enqueueNDRangeKernel(kernel, from, items, group, nullptr, event);
+}
+
 }  // namespace
 
 int rows_of_item(const DeviceInfo& info, const Pass& pass) {
@@ -79,13 +89,12 @@ Launch launch(Device::Impl& device, cl::Kernel& kernel, const Pass& pass, const 
   const size_t strip = columns_of_strip(device.info, pass, columns, group, tuning.lanes);
   const size_t rows_left = group.dimensions() == 2 ? rows % group[1] : 0;
   for (size_t from = 0; from < columns; from += strip)
-    device.queue.enqueueNDRangeKernel(kernel, cl::NDRange(from, 0),
-                                      cl::NDRange(std::min(strip, columns - from), rows - rows_left), group, nullptr,
-                                      from == 0 ? &launch.first : &launch.last);
+    enqueue(device, kernel, cl::NDRange(from, 0), cl::NDRange(std::min(strip, columns - from), rows - rows_left), group,
+            from == 0 ? &launch.first : &launch.last);
   if (strip >= columns) launch.last = launch.first;
   if (rows_left > 0)
-    device.queue.enqueueNDRangeKernel(kernel, cl::NDRange(0, rows - rows_left), cl::NDRange(columns, rows_left),
-                                      cl::NDRange(group[0], 1), nullptr, &launch.last);
+    enqueue(device, kernel, cl::NDRange(0, rows - rows_left), cl::NDRange(columns, rows_left), cl::NDRange(group[0], 1),
+            &launch.last);
   return launch;
 }
 
