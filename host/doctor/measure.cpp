@@ -111,7 +111,9 @@ std::vector<Tuning> group_candidates(const Tuning& best, bool is_cpu) {
   std::vector<Tuning> all = {best};
   for (const int group : is_cpu ? std::vector{4, 16, 64} : std::vector{0, 32, 64, 128, 256}) {
     if (group == best.search.group && group == best.others.group) continue;
-    all.push_back({best.lanes, {group, best.search.registers}, {group, best.others.registers}});
+    Tuning other = best;
+    other.search.group = other.others.group = group;
+    all.push_back(other);
   }
   return all;
 }
@@ -120,9 +122,18 @@ std::vector<Tuning> group_candidates(const Tuning& best, bool is_cpu) {
 std::vector<Tuning> register_candidates(const Tuning& best) {
   std::vector<Tuning> all = {best};
   for (const int registers : {0, 48, 64, 80, 96}) {
-    if (registers != best.search.registers) all.push_back({best.lanes, {best.search.group, registers}, best.others});
+    if (registers == best.search.registers) continue;
+    all.push_back(best);
+    all.back().search.registers = registers;
   }
   return all;
+}
+
+/// Where kernels do not know it, both take the same time, and the usual one stays.
+std::vector<Tuning> gather_candidates(const Tuning& best) {
+  Tuning other = best;
+  other.search.gathers_by_loads = !best.search.gathers_by_loads;
+  return {best, other};
 }
 
 void add_timed(const std::vector<Candidate>& candidates, Measurement& measurement) {
@@ -154,6 +165,8 @@ Measurement measure_tuning(const std::string& technique, Device& device, const s
   for (const Candidate& one : by_lanes) {
     if (one.tuning.lanes != best.lanes) add_timed({one}, measurement);
   }
+  if (best.lanes == 16)
+    best.search = best_by(&Candidate::search, times_of(gather_candidates(best), plan, frame, device, goes_on)).search;
   std::stable_sort(measurement.timed.begin(), measurement.timed.end(),
                    [](const Timed& a, const Timed& b) { return a.ms + a.ms_of_others < b.ms + b.ms_of_others; });
   if (usual.search.registers > 0 && contains(technique_names(), needs_most_registers)) {

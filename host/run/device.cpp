@@ -39,7 +39,8 @@ KnownDevice known_device(const DeviceInfo& info, int vector_width) {
   static const nlohmann::ordered_json table = nlohmann::ordered_json::parse(data_files().at("devices.json"));
   for (const nlohmann::ordered_json& row : table) {
     const bool fits = row.value("platform", info.platform) == info.platform &&
-                      row.value("type", info.type) == info.type && row.value("vector", 0) <= vector_width;
+                      row.value("type", info.type) == info.type && row.value("vector", 0) <= vector_width &&
+                      info.name.find(row.value("name", "")) != std::string::npos;
     if (fits) return {tuning_in(row).value(), row.value("keeps_kernels", false)};
   }
   return {};

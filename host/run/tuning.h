@@ -9,10 +9,10 @@
 
 namespace gloam {
 
-/// {"lanes": 1, "group": 256, "group_of_others": 256, "registers": 64}
+/// {"lanes": 1, "group": 256, "group_of_others": 256, "registers": 64, "gathers_by_loads": false}
 nlohmann::ordered_json document_of(const Tuning& tuning);
 
-/// The tuning of such an object, in which the last two may be missing; none if kernels cannot run with it.
+/// The tuning of such an object, in which the last three may be missing; none if kernels cannot run with it.
 std::optional<Tuning> tuning_in(const nlohmann::ordered_json& document);
 
 /// What suits a pass's kernel.

@@ -13,11 +13,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 TEST(Tuning, IsReadAsItIsKept) {
-  const Tuning tuning{1, {128, 64}, {32, 0}};
+  const Tuning tuning{1, {128, 64, true}, {32}};
   const std::optional<Tuning> read = tuning_in(document_of(tuning));
   ASSERT_TRUE(read);
   EXPECT_EQ(document_of(*read), document_of(tuning));
-  EXPECT_EQ(document_of(tuning), Json::parse(R"({"lanes": 1, "group": 128, "group_of_others": 32, "registers": 64})"));
+  EXPECT_EQ(
+      document_of(tuning),
+      Json::parse(R"({"lanes": 1, "group": 128, "group_of_others": 32, "registers": 64, "gathers_by_loads": true})"));
 }
 
 /// As gloam kept them when all kernels had one group size.
@@ -47,6 +49,14 @@ TEST(Tuning, LimitsRegistersWhereTheCompilerTakesALimit) {
   EXPECT_NE(options(0, nvidia).find(" -cl-nv-maxrregcount=64"), std::string::npos);
   EXPECT_EQ(options(1, nvidia).find("maxrregcount"), std::string::npos);
   EXPECT_EQ(options(0, other).find("maxrregcount"), std::string::npos);
+}
+
+/// The filter's kernel gathers nothing.
+TEST(Tuning, TellsKernelsThatLookAroundToLoadOneByOne) {
+  const Plan plan = make_plan({.outputs = {"gtao"}}, {"depth", "normal"}, "");
+  const Tuning by_loads{16, {16, 0, true}, {16}};
+  EXPECT_NE(build_options(plan.passes[0], {}, {}, by_loads).find(" -D GATHERS_BY_LOADS=1"), std::string::npos);
+  EXPECT_EQ(build_options(plan.passes[1], {}, {}, by_loads).find("GATHERS"), std::string::npos);
 }
 
 TEST(Tuning, OptionsSetTheGroupsOfAllKernels) {

@@ -53,10 +53,25 @@ static inline void expect_surface(global const float* depth, global const float*
 
 static inline real3 load3(PLANE x, PLANE y, PLANE z, int i) { return make3(load(x, i), load(y, i), load(z, i)); }
 
-// Values of a plane at one index per lane.
+// Four lanes of a gather, by indices in pairs. Nothing is done to `v`, but the compiler must not see that it is part of a gather.
+#if GATHERS_BY_LOADS && LANES == 16 && defined(__AVX512F__)
+#define LOAD_FOUR(v, pair, next_pair)                                                                        \
+  v = (float4)(plane[(int)pair], plane[pair >> 32], plane[(int)next_pair], plane[next_pair >> 32]); \
+  __asm__("" : "+x"(v));
+#endif
+
+// Values of a plane at one index per lane. -D GATHERS_BY_LOADS: not by the processor's instruction for it.
 static inline real gather(PLANE plane, integer i) {
 #if LANES == 1
   return to_real(plane[i]);
+#elif defined(LOAD_FOUR)
+  const long8 pairs = as_long8(i);
+  float4 a, b, c, d;
+  LOAD_FOUR(a, pairs.s0, pairs.s1)
+  LOAD_FOUR(b, pairs.s2, pairs.s3)
+  LOAD_FOUR(c, pairs.s4, pairs.s5)
+  LOAD_FOUR(d, pairs.s6, pairs.s7)
+  return to_real((stored)(a, b, c, d));
 #elif LANES == 4
   return to_real((stored)(plane[i.s0], plane[i.s1], plane[i.s2], plane[i.s3]));
 #elif LANES == 8

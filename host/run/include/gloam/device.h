@@ -13,6 +13,7 @@ struct KernelTuning {
   int group = 0;  ///< most work-items per work-group; 0: the driver chooses
   int registers =
       0;  ///< most registers per work-item, where the driver takes a limit (NVIDIA's); 0: the compiler chooses
+  bool gathers_by_loads = false;  ///< 16 lanes load one by one: AMD's processors take longer to gather with AVX-512
 };
 
 /// How an image is laid out over the work-items of a device. It changes times, and in fast mathematics the last bits.
