@@ -228,6 +228,14 @@ void add_notes_on_reference(Comparison& c) {
                     percent_of(*c.reference_change), percent_of(*c.others_change)));
 }
 
+OnDevice on_device(const Row& row) {
+  OnDevice result{row.ms.median, ""};
+  const auto longest = std::max_element(row.passes.begin(), row.passes.end(),
+                                        [](const Pass& a, const Pass& b) { return a.ms.median < b.ms.median; });
+  if (longest != row.passes.end() && longest->bound) result.bound = longest->bound->by;
+  return result;
+}
+
 }  // namespace
 
 Number median_of(const std::vector<double>& values) { return values.empty() ? Number() : Number(median(values)); }
@@ -277,7 +285,8 @@ Comparison compare(const Source& first, const Source& second, const CompareOptio
         "{} and {}: share no row; a row is a technique, preset and variant on a scene and its size: measure "
         "the same ones, as gloam bench --baseline {} does",
         first.name, second.name, first.name);
-  for (const Pair& pair : pairs) result.rows.push_back({.name = row_name(*pair.from)});
+  for (const Pair& pair : pairs)
+    result.rows.push_back({.name = row_name(*pair.from), .from = on_device(*pair.from), .to = on_device(*pair.to)});
   compare_times(pairs, conditions, result);
   compare_errors(pairs, conditions, result);
   add_notes_on_reference(result);

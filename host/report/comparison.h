@@ -28,8 +28,15 @@ struct RowName {
 /// "gtao medium, half on courtyard"
 std::string words(const RowName& name);
 
+/// What a row takes on its device.
+struct OnDevice {
+  double ms = 0;      ///< the median
+  std::string bound;  ///< what limits its longest pass (results/bound.h); empty: not known
+};
+
 struct ComparedRow {
   RowName name;
+  OnDevice from, to;
   TimeVerdict time = TimeVerdict::not_compared;
   std::optional<RelativeChange> change;  ///< of the ratio
   Number ratio_from, ratio_to;           ///< medians over all rounds

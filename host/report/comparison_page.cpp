@@ -26,6 +26,8 @@ std::string error_change(const ComparedRow& row) {
   return fmt::format("{:.4f} to {:.4f}", *row.rmse_from, *row.rmse_to);
 }
 
+std::string scene_of(const RowName& name) { return name.size.empty() ? name.scene : name.scene + " " + name.size; }
+
 bool differs(const ComparedRow& row) {
   return row.time == TimeVerdict::faster || row.time == TimeVerdict::slower || row.error == ErrorVerdict::nearer ||
          row.error == ErrorVerdict::farther;
@@ -83,6 +85,8 @@ Json document_of(const ComparedRow& row) {
   document.update({{"time", name_of(row.time)},
                    {"ratio", {or_null(row.ratio_from), or_null(row.ratio_to)}},
                    {"change", change_document(row.change)},
+                   {"ms", {row.from.ms, row.to.ms}},
+                   {"bound", {or_null(row.from.bound), or_null(row.to.bound)}},
                    {"error", name_of(row.error)},
                    {"rmse", {or_null(row.rmse_from), or_null(row.rmse_to)}}});
   return document;
@@ -140,9 +144,23 @@ Cells table_of_rows(const Comparison& c, bool only_those_that_differ) {
   for (const ComparedRow& row : c.rows) {
     if (only_those_that_differ && !differs(row)) continue;
     const RowName& n = row.name;
-    const std::string scene = n.size.empty() ? n.scene : n.scene + " " + n.size;
-    table.push_back({scene, n.technique, n.preset, n.variant, name_of(row.time), name_of(row.error), ratios_text(row),
-                     change_text(row.change), error_change(row)});
+    table.push_back({scene_of(n), n.technique, n.preset, n.variant, name_of(row.time), name_of(row.error),
+                     ratios_text(row), change_text(row.change), error_change(row)});
+  }
+  return table;
+}
+
+Cells table_of_devices(const Comparison& c, const Source& first, const Source& second) {
+  if (c.tolerance.one_device) return {};
+  const auto ms_on = [](const Source& source) { return "ms on " + source.measurements.device; };
+  const std::string limit = "limited by";
+  Cells table = {
+      {"scene", "technique", "preset", "variant", limit, limit, ms_on(first), ms_on(second), "times as long"}};
+  for (const ComparedRow& row : c.rows) {
+    const auto or_dash = [](const std::string& text) { return text.empty() ? "-" : text; };
+    table.push_back({scene_of(row.name), row.name.technique, row.name.preset, row.name.variant, or_dash(row.from.bound),
+                     or_dash(row.to.bound), fmt::format("{:.4g}", row.from.ms), fmt::format("{:.4g}", row.to.ms),
+                     row.from.ms > 0 ? fmt::format("{:.3g}", row.to.ms / row.from.ms) : "-"});
   }
   return table;
 }
@@ -176,6 +194,10 @@ std::string page_of(const Comparison& c, const Source& first, const Source& seco
   for (const std::string& line : counts_of(c, first, second)) page += list_item(plain_text(line));
   page += "\n## Techniques\n\n";
   add(page, table_of_techniques(c), "llr");
+  if (const Cells devices = table_of_devices(c, first, second); !devices.empty()) {
+    page += "## Devices\n\n";
+    add(page, devices, "llllllrrr");
+  }
   page += "## Rows\n\n";
   add(page, table_of_rows(c, false), "llllllr");
   while (page.size() > 1 && page.substr(page.size() - 2) == "\n\n") page.pop_back();

@@ -229,6 +229,9 @@ TEST_F(ReportCompare, SaysWhatCanStillBeCompared) {
   EXPECT_NE(result.err.find("devices differ (a device, a driver and another device, a driver): ratios are compared"),
             std::string::npos)
       << result.err;
+  EXPECT_NE(result.out.find("ms on a device"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("ms on another device"), std::string::npos) << result.out;
+  EXPECT_EQ(compare(Bench(1).made(), Bench(2).made()).out.find("ms on"), std::string::npos);
   other = Bench(2).made();
   other["rays"] = 256;
   Json document = compared(Bench(1).made(), other);

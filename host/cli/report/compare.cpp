@@ -33,6 +33,7 @@ void print(const report::Comparison& comparison, const report::Source& first, co
   for (const std::string& line : report::heading_of(comparison, first, second)) fmt::print("{}\n", printable(line));
   if (const auto table = report::table_of_techniques(comparison); table.size() > 1) print_cells(table, 2);
   if (const auto table = report::table_of_rows(comparison, true); table.size() > 1) print_cells(table, 6);
+  if (const auto table = report::table_of_devices(comparison, first, second); table.size() > 1) print_cells(table, 6);
   fmt::print("\n");
   for (const std::string& line : report::counts_of(comparison, first, second)) fmt::print("{}\n", printable(line));
 }
