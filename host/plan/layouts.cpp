@@ -38,6 +38,16 @@ size_t layers_in_buffer(const Plan& plan, const std::string& name) {
   return size_t(layers);
 }
 
+size_t more_rows_in_buffer(const Plan& plan, const std::string& name) {
+  int rows = 0;
+  for (const PlannedPass& planned : plan.passes) {
+    for (const Binding& binding : planned.pass.writes) {
+      if (binding.plane == name) rows = std::max(rows, binding.more_rows);
+    }
+  }
+  return size_t(rows);
+}
+
 int Layouts::scale_of(const std::string& plane) const {
   const auto known = scales_.find(plane);
   return known == scales_.end() ? 1 : known->second;
@@ -58,8 +68,14 @@ int other_scale(const PlannedPass& planned, const Layouts& layouts) {
   return other;
 }
 
+unsigned long long bytes_of_buffer(const Plan& plan, const Layouts& layouts, const std::string& name) {
+  const Layout layout = layouts.of(name);
+  return layers_in_buffer(plan, name) * layout.bytes() +
+         more_rows_in_buffer(plan, name) * size_t(layout.pitch) * sizeof(float);
+}
+
 unsigned long long bytes_of(const Plan& plan, const Layouts& layouts, const std::string& name) {
-  return plane_kind(name).components.size() * layers_in_buffer(plan, name) * layouts.of(name).bytes();
+  return plane_kind(name).components.size() * bytes_of_buffer(plan, layouts, name);
 }
 
 bool needs_two_views(const Plan& plan) {

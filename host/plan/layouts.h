@@ -19,6 +19,9 @@ std::set<std::string> lists_of(const Plan& plan);
 /// Number of planes of one channel that share a buffer: the layers of a stack; 1 for other planes.
 size_t layers_in_buffer(const Plan& plan, const std::string& name);
 
+/// Rows in such a buffer beyond those of its layers (`Binding::more_rows`).
+size_t more_rows_in_buffer(const Plan& plan, const std::string& name);
+
 /// The layouts of a plan's planes on an image.
 class Layouts {
  public:
@@ -36,7 +39,8 @@ class Layouts {
 /// are two.
 int other_scale(const PlannedPass& planned, const Layouts& layouts);
 
-/// Bytes of a plane or stack.
+/// Bytes of one of a plane's buffers, and of the plane or stack.
+unsigned long long bytes_of_buffer(const Plan& plan, const Layouts& layouts, const std::string& name);
 unsigned long long bytes_of(const Plan& plan, const Layouts& layouts, const std::string& name);
 
 /// Whether passes of one of two views read the other.

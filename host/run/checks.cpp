@@ -89,7 +89,7 @@ void check_memory(const Plan& plan, const Layout& layout, size_t views, const De
   const Layouts layouts(plan, layout);
   for (const std::string& name : planes_of(plan)) {
     const size_t layers = layers_in_buffer(plan, name);
-    const unsigned long long bytes = layers * layouts.of(name).bytes();
+    const unsigned long long bytes = bytes_of_buffer(plan, layouts, name);
     if (bytes <= info.largest_buffer) continue;
     const std::string what = layers == 1 ? "one plane" : fmt::format("'{}', {} layers", name, layers);
     throw Error("{}: {} of {}x{} pixels takes {}, and {} allows {} for one buffer; use a smaller frame or another {}",

@@ -47,8 +47,8 @@ void allocate_computed(const Plan& plan, ViewOnDevice& target) {
   const std::set<std::string> lists = lists_of(plan);
   for (const std::string& name : planes_of(plan)) {
     if (target.buffers.has(name) || shared.contains(name)) continue;
-    if (const size_t layers = layers_in_buffer(plan, name); layers > 1 || is_stack(name))
-      target.buffers.allocate_stack(name, target.layouts.of(name), layers);
+    if (layers_in_buffer(plan, name) > 1 || is_stack(name))
+      target.buffers.allocate_stack(name, bytes_of_buffer(plan, target.layouts, name));
     else
       target.buffers.allocate(name, target.layouts.of(name), lists.contains(name));
   }
@@ -89,10 +89,10 @@ void Buffers::upload_stack(const std::string& name, const std::vector<const Plan
   buffers_[name].push_back(std::move(buffer));
 }
 
-void Buffers::allocate_stack(const std::string& name, const Layout& layout, size_t layers) {
-  bytes_ += layers * layout.bytes();
-  cl::Buffer buffer = take(layers * layout.bytes(), anything).buffer;
-  device_.queue.enqueueFillBuffer(buffer, plane_kind(name).outside, 0, layers * layout.bytes());
+void Buffers::allocate_stack(const std::string& name, size_t bytes) {
+  bytes_ += bytes;
+  cl::Buffer buffer = take(bytes, anything).buffer;
+  device_.queue.enqueueFillBuffer(buffer, plane_kind(name).outside, 0, bytes);
   buffers_[name].push_back(std::move(buffer));
 }
 

@@ -28,7 +28,7 @@ class Buffers {
   void upload_stack(const std::string& name, const std::vector<const Plane*>& layers);
   void allocate(const std::string& name, const Layout& layout, bool is_list = false);
   /// Allocates a stack that is computed, filled with the value outside the image, which stays where nothing is computed.
-  void allocate_stack(const std::string& name, const Layout& layout, size_t layers);
+  void allocate_stack(const std::string& name, size_t bytes);
 
   /// A plane in memory of the caller's.
   void adopt(const std::string& name, std::vector<cl::Buffer> buffers) { buffers_[name] = std::move(buffers); }

@@ -71,18 +71,18 @@ static inline real smaller_of_four(PLANE level, Frame image, int y, int next, in
 kernel void ssr_level(ARGUMENTS) {
   const int below = LEVEL - 1, columns = (other.width + (1 << below) - 1) >> below;
   const int rows = (other.height + (1 << below) - 1) >> below, y = 2 * ROW_Y, next = min(y + 1, rows - 1);
-  const int layer = floats_of_layer(other), here = index_of_tile_row(other, FIRST_X, ROW_Y);
-  global const float* near_below = nearness + (size_t)LAYER_OF(below) * layer;
+  const int here = index_of_tile_row(other, FIRST_X, ROW_Y);
+  const size_t start = start_of_whole_level(other, LEVEL), start_below = start_of_whole_level(other, below);
+  global const float* near_below = nearness + start_below;
   const mask is_inside = to_mask(FIRST_X + IOTA < frame.width);
   const real nearest = larger_of_four(near_below, other, y, next);
-  store(choose(is_inside, nearest, (real)(nearness_of_background(other))), nearness + (size_t)LAYER_OF(LEVEL) * layer,
-        here);
+  store(choose(is_inside, nearest, (real)(nearness_of_background(other))), nearness + start, here);
 #if LEVEL == 1 && !TRAVERSAL
   // In a single pixel the nearest surface is the farthest too.
   global const float* far_below = near_below;
 #else
-  global const float* far_below = farness + (size_t)LAYER_OF(below) * layer;
+  global const float* far_below = farness + start_below;
 #endif
-  store(smaller_of_four(far_below, other, y, next, columns), farness + (size_t)LAYER_OF(LEVEL) * layer, here);
+  store(smaller_of_four(far_below, other, y, next, columns), farness + start, here);
 }
 #endif

@@ -149,8 +149,13 @@ class Passes {
   }
 
   // As screen_ray.h has them.
-  Binding nearness() const { return {"nearness", "ssr_nearness", levels() + 1}; }
-  Binding farness() const { return {"farness", "ssr_farness", levels() + 1}; }
+  Binding levels_in(const std::string& name) const {
+    Binding stack{name, "ssr_" + name, 2};
+    stack.more_rows = 16 * levels();
+    return stack;
+  }
+  Binding nearness() const { return levels_in("nearness"); }
+  Binding farness() const { return levels_in("farness"); }
   Bindings cells(bool with_both_depths) const {
     return with_both_depths ? Bindings{nearness(), farness()} : Bindings{nearness()};
   }

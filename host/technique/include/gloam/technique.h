@@ -36,6 +36,7 @@ enum class From {
 struct Binding {
   std::string argument, plane;
   int layers = 0;
+  int more_rows = 0;  ///< of a stack that a kernel divides by itself: rows beyond those of its layers
   From from = From::this_view;
   bool as_launched = false, starts_empty = false;
   Binding(const char* name) : argument(name), plane(name) {}
