@@ -114,10 +114,37 @@ static inline mask step_on(Frame frame, Params params, Start s, Hierarchy cells,
 #define HIERARCHY hierarchy_of(nearness, nearness)
 #endif
 
-// Rays per work-item. Where a lane follows a ray, lanes whose ray has ended take the next rays, so that few wait for the longest:
-// rays take 10 to 200 steps.
-#define RAYS_PER_ITEM (LANES == 1 ? RAYS : 32 * LANES)
+// Rays take 10 to 200 steps. Lanes whose ray has ended take the next rays, so that few wait for the longest. On a GPU lanes are the
+// work-items of a warp: they take rays in the same rounds, so that all of them wait for a ray's start once in a while, and their rays
+// follow one another in the list, where neighbours are. With few rays each item has as many as a pixel, so that there are enough items.
+#define MOST_RAYS_PER_ITEM (LANES == 1 ? 8 * RAYS : 32 * LANES)
 #define LANES_WORTH_FILLING (LANES == 1 ? 1 : LANES / 2)
+#define ROUNDS_TO_A_START (LANES == 1 ? 8 : 1)
+#define WORTH_SHARING (1 << 17)
+
+// A work-item's rays: every `stride`-th entry of the list from `next` on.
+typedef struct {
+  int next, last, stride;
+} Turns;
+
+static inline Turns turns_of_item(Frame image, int count) {
+  Turns t;
+#if LANES == 1
+  const int per_item = clamp(count / WORTH_SHARING, RAYS, MOST_RAYS_PER_ITEM);
+  t.stride = (count + per_item - 1) / per_item;
+  t.next = ROW_Y * image.pitch + FIRST_X;
+  t.last = t.next < t.stride ? count : 0;
+#else
+  // Down the columns of work-items: devices start the image row by row, and the first rows would get all the work.
+  const int item = FIRST_X / LANES * image.height + ROW_Y;
+  t.stride = 1;
+  // Divided rather than multiplied: in a large image the product would overflow an int.
+  const int is_beyond = count == 0 || item > (count - 1) / MOST_RAYS_PER_ITEM;
+  t.next = is_beyond ? 0 : item * MOST_RAYS_PER_ITEM;
+  t.last = is_beyond ? 0 : t.next + min(MOST_RAYS_PER_ITEM, count - t.next);
+#endif
+  return t;
+}
 
 // Writes one value per lane to one index each in a plane's memory, where a mask holds.
 static inline void scatter_where(mask counts, integer value, global float* plane, integer place) {
@@ -144,7 +171,7 @@ static inline void keep_met(global float* met, Frame frame, Place p, integer ray
 #define GOES_ON_IN_OTHER 1
 // Rays that a work-item adds to another list, appended together so that work-items seldom wait for one another.
 typedef struct {
-  int rays[RAYS_PER_ITEM + 1], count;  // one more, since what does not count is written too
+  int rays[MOST_RAYS_PER_ITEM + 1], count;  // one more, since what does not count is written too
 } Batch;
 
 static inline void add_rays(Batch* batch, integer ray, mask which) {
@@ -170,17 +197,18 @@ static inline void put_rays(const Batch* batch, PIXEL_LIST_OUT list) {
 #endif
 
 // Gives idle lanes the next rays of a list. Returns which lanes have a ray.
-static inline mask fill_lanes(global const int* rays, int* next, int last, integer* ray, mask active) {
+static inline mask fill_lanes(global const int* rays, Turns* turns, integer* ray, mask active) {
 #if LANES == 1
-  if (active || *next == last) return active;
-  *ray = rays[(*next)++];
+  if (active || turns->next >= turns->last) return active;
+  *ray = rays[turns->next];
+  turns->next += turns->stride;
   return EVERY_LANE;
 #else
   integer busy = integer_of(active);
   int *lanes = (int*)ray, *is_busy = (int*)&busy;
-  for (int i = 0; i < LANES && *next < last; ++i) {
+  for (int i = 0; i < LANES && turns->next < turns->last; ++i) {
     if (is_busy[i]) continue;
-    lanes[i] = rays[(*next)++];
+    lanes[i] = rays[turns->next++];
     is_busy[i] = -1;
   }
   return to_mask(busy);
@@ -222,14 +250,10 @@ kernel void ssr_march(ARGUMENTS) {
   global const float* back_depth = 0;
 #endif
   global const int* entries = (global const int*)list;
-  // Down the columns of work-items: devices start the image row by row, and the first rows would get all the work.
-  const int item = FIRST_X / LANES * image.height + ROW_Y, count = entries[0];
-  // Divided rather than multiplied: in a large image the product would overflow an int.
-  if (count == 0 || item > (count - 1) / RAYS_PER_ITEM) return;
-  int next = item * RAYS_PER_ITEM;
-  const int last = next + min(RAYS_PER_ITEM, count - next);
+  Turns turns = turns_of_item(image, entries[0]);
+  if (turns.next >= turns.last) return;
   const Rays rays = {depth, normal_x, normal_y, normal_z, ray_x, ray_y, ray_z};
-  integer ray = (integer)(entries[FRAME_GUARD + next]), steps = (integer)(0);
+  integer ray = (integer)(entries[FRAME_GUARD + turns.next]), steps = (integer)(0);
   mask active = (mask)(0);
   Start start;
   Place place;
@@ -238,12 +262,12 @@ kernel void ssr_march(ARGUMENTS) {
   Batch further;
   further.count = 0;
 #endif
-  for (;;) {
+  for (int round = 0;; ++round) {
     const int idle = LANES - popcount(bit_of_each_lane(active));
-    if (idle == LANES && next == last) break;
-    if (idle >= LANES_WORTH_FILLING && next < last) {
+    if (idle == LANES && turns.next >= turns.last) break;
+    if (idle >= LANES_WORTH_FILLING && turns.next < turns.last && round % ROUNDS_TO_A_START == 0) {
       const mask before = active;
-      active = fill_lanes(entries + FRAME_GUARD, &next, last, &ray, active);
+      active = fill_lanes(entries + FRAME_GUARD, &turns, &ray, active);
       // A ray's start depends on nothing but its pixel: recomputing it for all lanes changes none.
       start = start_of_ray(frame, params, rays, ray);
 #if IN_OTHER

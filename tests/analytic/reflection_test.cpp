@@ -268,6 +268,14 @@ TEST(Reflection, ManyRaysGiveTheSameBitsAtEveryLaneWidth) {
   EXPECT_TRUE(same_bits(one, outputs_of(sssr, frame, settings, {.math = Math::precise, .lanes = 16})));
 }
 
+// With one lane, as on GPUs, a work-item follows several rays where there are many.
+TEST(Reflection, WorkItemsThatShareRaysLoseNone) {
+  Frame frame = shoot(perspective(960, 540, 70), gloam::test::room());
+  const Technique& sssr = find_technique("sssr");
+  const Frame one = outputs_of(sssr, frame, {}, {.math = Math::precise, .lanes = 1});
+  EXPECT_TRUE(same_bits(one, outputs_of(sssr, frame, {}, {.math = Math::precise, .lanes = 16})));
+}
+
 // --- Two eyes
 
 Frame pair_of(const MirrorRoom& left, const MirrorRoom& right) {

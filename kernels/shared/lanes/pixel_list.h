@@ -36,8 +36,13 @@ static inline void append_pixels(PIXEL_LIST_OUT list, int here, mask which) {
 // the image. Lanes left over get the first lane's pixel.
 static inline int pixels_of_item(PIXEL_LIST list, Frame f, integer* index) {
   global const int* entries = (global const int*)list;
+#if LANES == 1
+  // Along the rows, so that the work-items of a warp take pixels that follow one another.
+  const int first = ROW_Y * f.pitch + FIRST_X, count = entries[0];
+#else
   // Down the columns of work-items: devices start the image row by row, and the first rows would get all the work.
   const int first = FIRST_X * f.height + ROW_Y * LANES, count = entries[0];
+#endif
   if (first >= count) return 0;
   entries += FRAME_GUARD + first;
 #if LANES == 1
