@@ -17,3 +17,4 @@ def lanes(lab):
 
 
 record(PAGE, "The past as hidden layers", why="the second layer was projected from earlier frames by code that is not part of the project")
+record(PAGE, "The first image", why="read from the log and the system calls of a driver of OpenCL, on one machine")

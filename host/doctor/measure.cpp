@@ -15,7 +15,7 @@
 namespace gloam::doctor {
 namespace {
 
-constexpr int timed_width = 960,
+constexpr int timed_width = 1024,
               timed_height = 540;  ///< on CPUs, groups of smaller images have one work-item (run/launch.cpp)
 constexpr int rounds = 5;
 constexpr size_t least_rounds = 3;  ///< of a candidate that takes the usual one's place
@@ -100,7 +100,7 @@ const Tuning& best_by(Times Candidate::*kind, const std::vector<Candidate>& cand
 std::vector<Tuning> lane_candidates(const Tuning& usual) {
   const auto at = std::find(lane_widths.begin(), lane_widths.end(), usual.lanes);
   std::vector<Tuning> all = {usual};
-  const auto add = [&](int lanes) { all.push_back({lanes, usual.search, usual.others}); };
+  const auto add = [&](int lanes) { all.push_back({lanes, usual.search, usual.others, usual.gathers_by_loads}); };
   if (at != lane_widths.begin()) add(*(at - 1));
   if (at != lane_widths.end() && at + 1 != lane_widths.end()) add(*(at + 1));
   return all;
@@ -109,7 +109,7 @@ std::vector<Tuning> lane_candidates(const Tuning& usual) {
 /// Without the driver's choice on CPUs: a CPU driver compiles a kernel for each size that it chooses.
 std::vector<Tuning> group_candidates(const Tuning& best, bool is_cpu) {
   std::vector<Tuning> all = {best};
-  for (const int group : is_cpu ? std::vector{4, 16, 64} : std::vector{0, 32, 64, 128, 256}) {
+  for (const int group : is_cpu ? std::vector{4, 16, 32} : std::vector{0, 32, 64, 128, 256}) {
     if (group == best.search.group && group == best.others.group) continue;
     Tuning other = best;
     other.search.group = other.others.group = group;
@@ -132,7 +132,7 @@ std::vector<Tuning> register_candidates(const Tuning& best) {
 /// Where kernels do not know it, both take the same time, and the usual one stays.
 std::vector<Tuning> gather_candidates(const Tuning& best) {
   Tuning other = best;
-  other.search.gathers_by_loads = !best.search.gathers_by_loads;
+  other.gathers_by_loads = !best.gathers_by_loads;
   return {best, other};
 }
 
@@ -166,7 +166,8 @@ Measurement measure_tuning(const std::string& technique, Device& device, const s
     if (one.tuning.lanes != best.lanes) add_timed({one}, measurement);
   }
   if (best.lanes == 16)
-    best.search = best_by(&Candidate::search, times_of(gather_candidates(best), plan, frame, device, goes_on)).search;
+    best.gathers_by_loads =
+        best_by(&Candidate::search, times_of(gather_candidates(best), plan, frame, device, goes_on)).gathers_by_loads;
   std::stable_sort(measurement.timed.begin(), measurement.timed.end(),
                    [](const Timed& a, const Timed& b) { return a.ms + a.ms_of_others < b.ms + b.ms_of_others; });
   if (usual.search.registers > 0 && contains(technique_names(), needs_most_registers)) {

@@ -28,30 +28,32 @@ KernelFrame kernel_frame(const Frame& frame) {
           frame.views[0].camera->orthographic ? 1.0f : 0.0f};
 }
 
-std::string options(int lanes) {
-  return fmt::format("-cl-std=CL1.2 -D MATH_FAST=1 -D LANES={} -D DIRECTIONS={} -D STEPS={} -D JITTER=1", lanes,
-                     directions, steps);
+std::string options(const Tuning& tuning) {
+  return fmt::format("-cl-std=CL1.2 -D MATH_FAST=1 -D LANES={} -D DIRECTIONS={} -D STEPS={} -D JITTER=1{}",
+                     tuning.lanes, directions, steps, tuning.gathers_by_loads ? " -D GATHERS_BY_LOADS=1" : "");
 }
 
-KernelText gather_text(int lanes) {
-  return {flatten("shared/sampling/fan.h") + gather_floor_cl, options(lanes), "gather_floor"};
+KernelText gather_text(const Tuning& tuning) {
+  return {flatten("shared/sampling/fan.h") + gather_floor_cl, options(tuning), "gather_floor"};
 }
 
-KernelText copy_text(int lanes) {
-  return {flatten("shared/lanes/load.h") + copy_floor_cl, options(lanes), "copy_floor"};
+KernelText copy_text(const Tuning& tuning) {
+  return {flatten("shared/lanes/load.h") + copy_floor_cl, options(tuning), "copy_floor"};
 }
 
 constexpr int fma_steps = 16;
 constexpr int fma_sums = 12;  // as fma_peak.cl has them
 
-KernelText fma_text(int lanes) {
-  return {flatten("shared/lanes/load.h") + fma_peak_cl, options(lanes) + fmt::format(" -D FMA_STEPS={}", fma_steps),
+KernelText fma_text(const Tuning& tuning) {
+  return {flatten("shared/lanes/load.h") + fma_peak_cl, options(tuning) + fmt::format(" -D FMA_STEPS={}", fma_steps),
           "fma_peak"};
 }
 
 }  // namespace
 
-std::vector<KernelText> floor_texts(int lanes) { return {gather_text(lanes), copy_text(lanes), fma_text(lanes)}; }
+std::vector<KernelText> floor_texts(const Tuning& tuning) {
+  return {gather_text(tuning), copy_text(tuning), fma_text(tuning)};
+}
 
 Floor::Floor(Device& device, const Frame& frame, const KernelText& text)
     : kernel_(build(device, text.text, text.options, text.kernel)), device_(device) {
@@ -68,7 +70,7 @@ double Floor::run() {
 }
 
 GatherFloor::GatherFloor(Device& device, const Frame& frame, DevicePlanes& planes, const HbaoPlusParams& params)
-    : Floor(device, frame, gather_text(device.info().tuning.lanes)) {
+    : Floor(device, frame, gather_text(device.info().tuning)) {
   kernel_.setArg(1, params.radius);
   kernel_.setArg(2, params.max_reach);
   kernel_.setArg(3, planes.depth);
@@ -76,7 +78,7 @@ GatherFloor::GatherFloor(Device& device, const Frame& frame, DevicePlanes& plane
 }
 
 FmaPeak::FmaPeak(Device& device, const Frame& frame, DevicePlanes& planes)
-    : Floor(device, frame, fma_text(device.info().tuning.lanes)) {
+    : Floor(device, frame, fma_text(device.info().tuning)) {
   kernel_.setArg(1, 0.5f);
   kernel_.setArg(2, 0.25f);
   kernel_.setArg(3, planes.result().buffer);
@@ -85,7 +87,7 @@ FmaPeak::FmaPeak(Device& device, const Frame& frame, DevicePlanes& planes)
 }
 
 CopyFloor::CopyFloor(Device& device, const Frame& frame, DevicePlanes& planes)
-    : Floor(device, frame, copy_text(device.info().tuning.lanes)) {
+    : Floor(device, frame, copy_text(device.info().tuning)) {
   kernel_.setArg(1, planes.depth);
   kernel_.setArg(2, planes.result().buffer);
 }

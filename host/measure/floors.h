@@ -9,7 +9,7 @@
 namespace gloam::bench {
 
 /// Their kernels as they are compiled.
-std::vector<KernelText> floor_texts(int lanes);
+std::vector<KernelText> floor_texts(const Tuning& tuning);
 
 /// A kernel of bench/ on gloam's lanes.
 class Floor {

@@ -167,7 +167,7 @@ void compare_times(const std::vector<Pair>& pairs, const Conditions& conditions,
   std::vector<Pair> comparable;
   std::vector<size_t> rows;
   for (size_t i = 0; i < pairs.size(); ++i) {
-    if (contains(conditions.other_radius, pairs[i].from->scene)) continue;
+    if (!result.rows[i].is_same_work) continue;
     comparable.push_back(pairs[i]);
     rows.push_back(i);
   }
@@ -286,7 +286,10 @@ Comparison compare(const Source& first, const Source& second, const CompareOptio
         "the same ones, as gloam bench --baseline {} does",
         first.name, second.name, first.name);
   for (const Pair& pair : pairs)
-    result.rows.push_back({.name = row_name(*pair.from), .from = on_device(*pair.from), .to = on_device(*pair.to)});
+    result.rows.push_back({.name = row_name(*pair.from),
+                           .from = on_device(*pair.from),
+                           .to = on_device(*pair.to),
+                           .is_same_work = !contains(conditions.other_radius, pair.from->scene)});
   compare_times(pairs, conditions, result);
   compare_errors(pairs, conditions, result);
   add_notes_on_reference(result);

@@ -37,6 +37,7 @@ struct OnDevice {
 struct ComparedRow {
   RowName name;
   OnDevice from, to;
+  bool is_same_work = true;  ///< false where the radius differs
   TimeVerdict time = TimeVerdict::not_compared;
   std::optional<RelativeChange> change;  ///< of the ratio
   Number ratio_from, ratio_to;           ///< medians over all rounds

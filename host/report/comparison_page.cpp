@@ -152,11 +152,15 @@ Cells table_of_rows(const Comparison& c, bool only_those_that_differ) {
 
 Cells table_of_devices(const Comparison& c, const Source& first, const Source& second) {
   if (c.tolerance.one_device) return {};
-  const auto ms_on = [](const Source& source) { return "ms on " + source.measurements.device; };
+  const bool same_name = first.measurements.device == second.measurements.device;
+  const auto ms_on = [&](const Source& source) {
+    return "ms " + (same_name ? "in " + source.name : "on " + source.measurements.device);
+  };
   const std::string limit = "limited by";
   Cells table = {
       {"scene", "technique", "preset", "variant", limit, limit, ms_on(first), ms_on(second), "times as long"}};
   for (const ComparedRow& row : c.rows) {
+    if (!row.is_same_work) continue;
     const auto or_dash = [](const std::string& text) { return text.empty() ? "-" : text; };
     table.push_back({scene_of(row.name), row.name.technique, row.name.preset, row.name.variant, or_dash(row.from.bound),
                      or_dash(row.to.bound), fmt::format("{:.4g}", row.from.ms), fmt::format("{:.4g}", row.to.ms),

@@ -90,6 +90,10 @@ void check_memory(const Plan& plan, const Layout& layout, size_t views, const De
   for (const std::string& name : planes_of(plan)) {
     const size_t layers = layers_in_buffer(plan, name);
     const unsigned long long bytes = bytes_of_buffer(plan, layouts, name);
+    // Kernels that divide a stack by themselves count its floats in an int.
+    if (more_rows_in_buffer(plan, name) > 0 && bytes / sizeof(float) > size_t(std::numeric_limits<int>::max()))
+      throw Error("{}: {}x{} pixels are more than 2^31 values in '{}'; use a smaller frame", plan.technique,
+                  layout.width, layout.height, name);
     if (bytes <= info.largest_buffer) continue;
     const std::string what = layers == 1 ? "one plane" : fmt::format("'{}', {} layers", name, layers);
     throw Error("{}: {} of {}x{} pixels takes {}, and {} allows {} for one buffer; use a smaller frame or another {}",

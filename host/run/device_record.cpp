@@ -59,7 +59,7 @@ std::optional<DeviceRecord> find_record(const DeviceInfo& info) {
     record.day = document.at("day");
     record.kernels = document.at("kernels");
     record.failures = document.at("failures").get<std::vector<std::string>>();
-    record.tuning = tuning_in(document.at("tuning"));
+    record.tuning = tuning_in(document.at("tuning"), info.usual);
     record.cold_ms = number_of(document, "cold_ms");
     record.warm_ms = number_of(document, "warm_ms");
     return record;

@@ -29,7 +29,7 @@ std::string build_options(const PlannedPass& planned, const DeviceInfo& info, co
   // The table of devices has a limit where the driver takes one.
   const int registers = of_kind(tuning, planned.pass).registers;
   if (registers > 0 && info.usual.search.registers > 0) text += fmt::format(" -cl-nv-maxrregcount={}", registers);
-  if (of_kind(tuning, planned.pass).gathers_by_loads) text += " -D GATHERS_BY_LOADS=1";
+  if (tuning.gathers_by_loads) text += " -D GATHERS_BY_LOADS=1";
   // Tests make quotients inexact, as they are on GPUs (docs/portability.md).
   if (const char* error = std::getenv("GLOAM_QUOTIENT_ERROR"); error && *error)
     text += fmt::format(" -D QUOTIENT_ERROR={}", std::atoi(error));

@@ -10,15 +10,16 @@ nlohmann::ordered_json document_of(const Tuning& tuning) {
           {"group", tuning.search.group},
           {"group_of_others", tuning.others.group},
           {"registers", tuning.search.registers},
-          {"gathers_by_loads", tuning.search.gathers_by_loads}};
+          {"gathers_by_loads", tuning.gathers_by_loads}};
 }
 
-std::optional<Tuning> tuning_in(const nlohmann::ordered_json& document) {
+std::optional<Tuning> tuning_in(const nlohmann::ordered_json& document, const Tuning& usual) {
   if (!document.is_object()) return {};
   const int group = document.at("group");
   const Tuning tuning{document.at("lanes"),
-                      {group, document.value("registers", 0), document.value("gathers_by_loads", false)},
-                      {document.value("group_of_others", group)}};
+                      {group, document.value("registers", 0)},
+                      {document.value("group_of_others", group)},
+                      document.value("gathers_by_loads", usual.gathers_by_loads)};
   const auto is_possible = [](const KernelTuning& kind) {
     return kind.group >= 0 && kind.group <= most_per_group && kind.registers >= 0;
   };

@@ -12,8 +12,9 @@ namespace gloam {
 /// {"lanes": 1, "group": 256, "group_of_others": 256, "registers": 64, "gathers_by_loads": false}
 nlohmann::ordered_json document_of(const Tuning& tuning);
 
-/// The tuning of such an object, in which the last three may be missing; none if kernels cannot run with it.
-std::optional<Tuning> tuning_in(const nlohmann::ordered_json& document);
+/// The tuning of such an object, in which the last three may be missing; none if kernels cannot run with it. Older gloams kept no
+/// `gathers_by_loads`: then it is the usual one.
+std::optional<Tuning> tuning_in(const nlohmann::ordered_json& document, const Tuning& usual = {});
 
 /// What suits a pass's kernel.
 const KernelTuning& of_kind(const Tuning& tuning, const Pass& pass);

@@ -3,7 +3,7 @@
 //
 // in : depth       view-space z, scene units, +inf = background
 //      back_depth  of the back of what is seen (TRAVERSAL)
-// out: nearness, farness  LEVELS layers, in tiles: 1 / depth, orthographic -depth
+// out: nearness, farness  LEVELS levels, one after another, in tiles: 1 / depth, orthographic -depth
 //      list, others       lists of rays, emptied
 // -D TRAVERSAL, LEVELS; LEVEL (ssr_level)
 #include "shared/lanes/pixel_list.h"

@@ -151,7 +151,7 @@ class Passes {
   // As screen_ray.h has them.
   Binding levels_in(const std::string& name) const {
     Binding stack{name, "ssr_" + name, 2};
-    stack.more_rows = 16 * levels();
+    if (!is_linear()) stack.more_rows = 16 * levels();
     return stack;
   }
   Binding nearness() const { return levels_in("nearness"); }

@@ -232,6 +232,14 @@ TEST_F(ReportCompare, SaysWhatCanStillBeCompared) {
   EXPECT_NE(result.out.find("ms on a device"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("ms on another device"), std::string::npos) << result.out;
   EXPECT_EQ(compare(Bench(1).made(), Bench(2).made()).out.find("ms on"), std::string::npos);
+  other["scenes"][1]["radius"] = 1;
+  const std::string out = compare(Bench(1).made(), other).out;
+  const size_t table = out.find("ms on another device"), end = out.find("\n\n", table);
+  EXPECT_NE(out.substr(table, end - table).find("\nhall"), std::string::npos) << out;
+  EXPECT_EQ(out.substr(table, end - table).find("\nfield"), std::string::npos) << out;
+  other = Bench(2).made();
+  other["driver"] = "another driver";
+  EXPECT_NE(compare(Bench(1).made(), other).out.find("ms in "), std::string::npos);
   other = Bench(2).made();
   other["rays"] = 256;
   Json document = compared(Bench(1).made(), other);

@@ -155,7 +155,7 @@ class Listing {
 /// Lists the kernels that `gloam bench` compares with.
 void list_baselines(Listing& listing) {
   std::vector<bench::KernelText> texts = bench::naive_texts();
-  for (bench::KernelText& floor : bench::floor_texts(1)) texts.push_back(std::move(floor));
+  for (bench::KernelText& floor : bench::floor_texts({.lanes = 1})) texts.push_back(std::move(floor));
   for (const bench::KernelText& each : texts) listing.add(each.text, usual, each.options);
 }
 

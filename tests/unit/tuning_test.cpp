@@ -13,7 +13,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 TEST(Tuning, IsReadAsItIsKept) {
-  const Tuning tuning{1, {128, 64, true}, {32}};
+  const Tuning tuning{1, {128, 64}, {32}, true};
   const std::optional<Tuning> read = tuning_in(document_of(tuning));
   ASSERT_TRUE(read);
   EXPECT_EQ(document_of(*read), document_of(tuning));
@@ -51,12 +51,20 @@ TEST(Tuning, LimitsRegistersWhereTheCompilerTakesALimit) {
   EXPECT_EQ(options(0, other).find("maxrregcount"), std::string::npos);
 }
 
-/// The filter's kernel gathers nothing.
-TEST(Tuning, TellsKernelsThatLookAroundToLoadOneByOne) {
-  const Plan plan = make_plan({.outputs = {"gtao"}}, {"depth", "normal"}, "");
-  const Tuning by_loads{16, {16, 0, true}, {16}};
-  EXPECT_NE(build_options(plan.passes[0], {}, {}, by_loads).find(" -D GATHERS_BY_LOADS=1"), std::string::npos);
-  EXPECT_EQ(build_options(plan.passes[1], {}, {}, by_loads).find("GATHERS"), std::string::npos);
+TEST(Tuning, TellsKernelsToLoadOneByOne) {
+  const Plan plan = make_plan({.outputs = {"sssr"}}, {"depth", "normal", "color", "roughness", "reflectance"}, "");
+  for (const PlannedPass& pass : plan.passes) {
+    EXPECT_NE(build_options(pass, {}, {}, {.lanes = 16, .gathers_by_loads = true}).find(" -D GATHERS_BY_LOADS=1"),
+              std::string::npos);
+    EXPECT_EQ(build_options(pass, {}, {}, {.lanes = 16}).find("GATHERS"), std::string::npos);
+  }
+}
+
+/// Records of older gloams.
+TEST(Tuning, WithoutAWayToGatherHasTheUsualOne) {
+  const Json kept{{"lanes", 16}, {"group", 16}};
+  EXPECT_TRUE(tuning_in(kept, {.lanes = 16, .gathers_by_loads = true})->gathers_by_loads);
+  EXPECT_FALSE(tuning_in(kept)->gathers_by_loads);
 }
 
 TEST(Tuning, OptionsSetTheGroupsOfAllKernels) {

@@ -22,12 +22,12 @@ struct DoctorFlags {
 
 std::string in_words(const KernelTuning& tuning) {
   return (tuning.group == 0 ? "groups as the driver chooses" : fmt::format("groups of {}", tuning.group)) +
-         (tuning.registers == 0 ? "" : fmt::format(" and at most {} registers", tuning.registers)) +
-         (tuning.gathers_by_loads ? " and loads one by one" : "");
+         (tuning.registers == 0 ? "" : fmt::format(" and at most {} registers", tuning.registers));
 }
 
 std::string lanes_in_words(const Tuning& tuning) {
-  return fmt::format("{} {}", tuning.lanes, tuning.lanes == 1 ? "lane" : "lanes");
+  return fmt::format("{} {}{}", tuning.lanes, tuning.lanes == 1 ? "lane" : "lanes",
+                     tuning.gathers_by_loads && tuning.lanes == 16 ? " that load one by one" : "");
 }
 
 /// "16 lanes, groups of 16", or of each kind of kernel where the kinds differ.
@@ -90,7 +90,7 @@ Json document_of(const Diagnosis& diagnosis) {
           {"group", tuning.search.group},
           {"group_of_others", tuning.others.group},
           {"registers", tuning.search.registers},
-          {"gathers_by_loads", tuning.search.gathers_by_loads},
+          {"gathers_by_loads", tuning.gathers_by_loads},
           {"cold_ms", or_null(record.cold_ms)},
           {"warm_ms", or_null(record.warm_ms)},
           {"lacks", diagnosis.lacks},

@@ -13,7 +13,6 @@ struct KernelTuning {
   int group = 0;  ///< most work-items per work-group; 0: the driver chooses
   int registers =
       0;  ///< most registers per work-item, where the driver takes a limit (NVIDIA's); 0: the compiler chooses
-  bool gathers_by_loads = false;  ///< 16 lanes load one by one: AMD's processors take longer to gather with AVX-512
 };
 
 /// How an image is laid out over the work-items of a device. It changes times, and in fast mathematics the last bits.
@@ -21,6 +20,7 @@ struct Tuning {
   int lanes = 1;        ///< pixels per work-item: the float vector width on PoCL's CPUs
   KernelTuning search;  ///< of kernels that read far around each pixel (`Footprint::is_wide`)
   KernelTuning others;
+  bool gathers_by_loads = false;  ///< 16 lanes load one by one: AMD's processors take longer to gather with AVX-512
 };
 
 struct DeviceInfo {
