@@ -2,9 +2,13 @@
 #pragma once
 
 #include <CL/opencl.hpp>
+#include <limits>
 #include <vector>
 
 namespace gloam {
+
+/// The content of a buffer of which nothing is known: no plane has it outside of the image.
+constexpr float anything = std::numeric_limits<float>::quiet_NaN();
 
 /// Buffers of one device that no run uses. Those of a queue that keeps the order of commands can be taken again before the commands
 /// that used them have ended.

@@ -11,6 +11,7 @@
 #include "gloam/parameters.h"
 #include "run/buffer_pool.h"
 #include "run/kernel_cache.h"
+#include "run/uploads.h"
 
 namespace gloam {
 
@@ -28,8 +29,9 @@ struct Device::Impl {
   cl::CommandQueue queue;
   std::map<std::string, cl::Program> programs;  ///< by source file, kernel, declaration and build options
 
-  BufferPool pool;    ///< device memory that no run uses
-  KernelCache cache;  ///< compiled kernels on disk; none where the driver keeps its own
+  BufferPool pool;      ///< device memory that no run uses
+  Transfers transfers;  ///< not held by `busy`
+  KernelCache cache;    ///< compiled kernels on disk; none where the driver keeps its own
 
   /// The built program of a kernel of a file, with the `declaration` of its arguments (run/arguments.h). Throws Error with the first
   /// error of the build log, and the name of the file that holds all of it.

@@ -13,9 +13,6 @@
 namespace gloam {
 namespace {
 
-/// The content of pooled buffers of which nothing is known: no plane has it outside of the image.
-constexpr float anything = std::numeric_limits<float>::quiet_NaN();
-
 const Plane& input_plane(const Plan& plan, const Frame& frame, const View& view, const std::string& name) {
   const Plane* plane = view.find(name);
   if (!plane) throw Error("{}: view '{}' has no plane '{}'", plan.technique, view.name, name);
@@ -23,7 +20,7 @@ const Plane& input_plane(const Plan& plan, const Frame& frame, const View& view,
   return *plane;
 }
 
-void upload_inputs(const Plan& plan, ViewOnDevice& target) {
+void upload_inputs(const Plan& plan, ViewOnDevice& target, Device::Impl& device, Uploads* uploads) {
   std::map<std::string, const Plane*> inputs;
   for (const std::string& name : plan.inputs) inputs[name] = &input_plane(plan, target.frame, target.view, name);
   for (const std::string& name : planes_of(plan)) {
@@ -32,7 +29,11 @@ void upload_inputs(const Plan& plan, ViewOnDevice& target) {
       for (const std::string& layer : stack->second) layers.push_back(inputs.at(layer));
       target.buffers.upload_stack(name, layers);
     } else if (const auto input = inputs.find(name); input != inputs.end()) {
-      target.buffers.upload(*input->second);
+      std::vector<cl::Buffer> sent = uploads ? uploads->take(*input->second, device.queue) : std::vector<cl::Buffer>();
+      if (sent.empty())
+        target.buffers.upload(*input->second);
+      else
+        target.buffers.adopt(name, std::move(sent));
     } else {
       continue;
     }
@@ -166,10 +167,11 @@ Plane Buffers::download(const std::string& name, const Layout& layout) {
   return plane;
 }
 
-ViewOnDevice view_on_device(const Plan& plan, const Frame& frame, const View& view, Device::Impl& device) {
+ViewOnDevice view_on_device(const Plan& plan, const Frame& frame, const View& view, Device::Impl& device,
+                            Uploads* uploads) {
   const Layout layout(frame.width(), frame.height());
   ViewOnDevice target{frame, view, layout, Layouts(plan, layout), Buffers(device, device.info.shares_memory)};
-  upload_inputs(plan, target);
+  upload_inputs(plan, target, device, uploads);
   allocate_computed(plan, target);
   return target;
 }

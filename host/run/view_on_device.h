@@ -95,8 +95,9 @@ struct OtherViews {
   }
 };
 
-/// Uploads a view's inputs, and allocates the planes that are computed.
-ViewOnDevice view_on_device(const Plan& plan, const Frame& frame, const View& view, Device::Impl& device);
+/// Uploads a view's inputs that are not among `uploads`, and allocates the planes that are computed.
+ViewOnDevice view_on_device(const Plan& plan, const Frame& frame, const View& view, Device::Impl& device,
+                            Uploads* uploads = nullptr);
 
 /// Allocates the planes that are computed and have no memory yet.
 void allocate_computed(const Plan& plan, ViewOnDevice& target);

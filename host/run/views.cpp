@@ -200,7 +200,7 @@ void collect(const Plan& plan, ViewOnDevice& target, RunResult& result) {
 void run_views(const Plan& plan, const Frame& frame, const std::vector<const View*>& views, Device::Impl& device,
                const RunOptions& options, const Tuning& tuning, RunResult& result, Counted& counted) {
   std::vector<ViewOnDevice> targets;
-  for (const View* view : views) targets.push_back(view_on_device(plan, frame, *view, device));
+  for (const View* view : views) targets.push_back(view_on_device(plan, frame, *view, device, options.uploads.get()));
   build_passes(plan, targets, device, options);
   size_t count_of_kernels = 0;
   for (const ViewOnDevice& target : targets) count_of_kernels += target.kernels.size();
@@ -251,7 +251,8 @@ class KeyViewsRun {
   ViewOnDevice& key(size_t i) {
     const auto known = keys_.find(i);
     if (known != keys_.end()) return known->second;
-    ViewOnDevice& target = keys_.emplace(i, view_on_device(plan_, frame_, frame_.views[i], device_)).first->second;
+    ViewOnDevice& target =
+        keys_.emplace(i, view_on_device(plan_, frame_, frame_.views[i], device_, options_.uploads.get())).first->second;
     compute(target, {});
     return target;
   }
@@ -259,7 +260,7 @@ class KeyViewsRun {
   void between(size_t i, ViewOnDevice& nearest, ViewOnDevice& far) {
     const auto steps_to = [i](int key) { return std::abs(double(i) - double(key)); };
     const double to_nearest = steps_to(roles_[i].nearest), to_far = steps_to(roles_[i].far);
-    ViewOnDevice target = view_on_device(plan_, frame_, frame_.views[i], device_);
+    ViewOnDevice target = view_on_device(plan_, frame_, frame_.views[i], device_, options_.uploads.get());
     target.is_key_view = false;
     const double share_of_far = &nearest == &far ? 0 : to_nearest / (to_nearest + to_far);
     compute(target, {.nearest = &nearest, .far = &far, .share_of_far = share_of_far});

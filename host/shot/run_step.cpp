@@ -72,6 +72,7 @@ class RunStep::Work : public FrameWork {
     if (turn.index == 0) add_warnings(radius, planned.plan, frame_, step_.events_);
     plan_ = std::move(planned.plan);
     planned_.reset();  // closes the files
+    if (Device* device = step_.ready_device_) uploads_ = upload(plan_, frame_, *device);
   }
 
   void compute() override {
@@ -82,7 +83,9 @@ class RunStep::Work : public FrameWork {
       goes_on = take_over();
       options.seed = seed_in_sequence(options.seed, turn.frame.number);
     }
+    options.uploads = std::move(uploads_);
     result_ = run(plan_, frame_, *step_.device_, options).frame;
+    options.uploads.reset();  // before the frame goes
     if (goes_on) {
       const std::string who =
           fmt::format("frame {}: shows next to nothing that the frame before showed", turn.frame.number);
@@ -120,7 +123,8 @@ class RunStep::Work : public FrameWork {
   RunStep& step_;
   std::optional<PlannedFrame> planned_;  ///< until it is decoded
   Plan plan_;
-  Frame frame_, result_;  ///< as decoded; what is written
+  Frame frame_, result_;              ///< as decoded; what is written
+  std::shared_ptr<Uploads> uploads_;  ///< of the frame
   OutputSources sources_;
 };
 

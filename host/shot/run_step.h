@@ -1,6 +1,7 @@
 // gloam run on the frames of a shot: one technique, written with what its files carry over.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <future>
 #include <memory>
@@ -44,7 +45,10 @@ class RunStep : public FrameStep {
 
   std::vector<ShotOutput> outputs() const override;
   std::string settings_of(const FrameFiles& files) override;
-  void get_ready() override { device_ = starting_.get(); }
+  void get_ready() override {
+    device_ = starting_.get();
+    ready_device_ = device_.get();
+  }
   std::unique_ptr<FrameWork> begin(const FrameTurn& turn, FrameFiles files) override;
 
  private:
@@ -57,6 +61,7 @@ class RunStep : public FrameStep {
   std::vector<std::string> written_;
   std::future<std::shared_ptr<Device>> starting_;
   std::shared_ptr<Device> device_;
+  std::atomic<Device*> ready_device_ = nullptr;  ///< the same, for those that decode
   ShotNotes notes_;
   ShotHistory history_;
   bool is_gap_noted_ = false;

@@ -74,5 +74,30 @@ TEST(Run, OnADeviceWithMemoryOfItsOwnComputesTheSame) {
   }
 }
 
+/// Planes that were sent ahead, some of them or of two frames at a time.
+TEST(Run, OnPlanesThatWereSentAheadComputesTheSame) {
+  Device own;
+  own.impl().info.shares_memory = false;
+  for (const char* name : {"evidence", "dp-gtao", "stereo-gtao", "sssr", "lightfield-hbao+"}) {
+    const Technique& technique = find_technique(name);
+    Frame frame = shoot(perspective(50, 33), room()), next = shoot(perspective(50, 33), room());
+    const Plan plan = plan_for(technique, frame, few_samples(technique));
+    plan_for(technique, next, few_samples(technique));
+    const Frame expected = run(plan, frame, device()).frame;
+    for (int time = 0; time < 2; ++time) {
+      std::shared_ptr<Uploads> first = upload(plan, frame, own), second = upload(plan, next, own);
+      ASSERT_TRUE(first && second) << name;
+      EXPECT_FALSE(upload(plan, next, own)) << "a third frame";
+      EXPECT_TRUE(same_bits(expected, run(plan, frame, own, {.uploads = std::move(first)}).frame)) << name;
+      EXPECT_TRUE(same_bits(expected, run(plan, next, own, {.uploads = std::move(second)}).frame)) << name;
+    }
+  }
+}
+
+TEST(Run, SendsNothingAheadWhereTheHostsMemoryIsUsed) {
+  Frame frame = shoot(perspective(50, 33), room());
+  EXPECT_FALSE(upload(plan_for(find_technique("gtao"), frame, {}), frame, device()));
+}
+
 }  // namespace
 }  // namespace gloam::test::run_test

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,9 @@
 #include "gloam/plan.h"
 
 namespace gloam {
+
+/// Planes of a frame on their way to a device's memory (`upload`).
+struct Uploads;
 
 enum class Math { precise, fast };
 enum class Real { float32, float64 };
@@ -26,6 +30,7 @@ struct RunOptions {
   /// result has no meaning.
   bool gathers_only = false;
   std::function<void(int done, int of)> progress = {};  ///< called after each launch of a pass
+  std::shared_ptr<Uploads> uploads = {};  ///< of this frame, by this device; what is not among them is uploaded
 };
 
 struct PassTime {
@@ -61,6 +66,11 @@ void check(const Plan& plan, const Layout& layout, size_t views, const Device& d
 
 /// Compiles a plan's kernels before `run`, for example while a frame is being decoded. Throws as `run` would.
 void prepare(const Plan& plan, Device& device, const RunOptions& options = {});
+
+/// Sends a frame's planes to a device that has memory of its own, while the device computes another frame, from any thread: for
+/// `RunOptions::uploads`. Null where that does not help or two frames are on their way: then `run` sends them. The frame has to stay where
+/// and as it is, and the device to live, until what is returned is gone.
+std::shared_ptr<Uploads> upload(const Plan& plan, const Frame& frame, Device& device);
 
 /// Runs a plan on every view of a frame that has passed `normalise` (normalise.h). Runs on one device go one after another,
 /// whichever threads they come from; `RunOptions::progress` may itself use the device.
