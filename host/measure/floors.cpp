@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/cpu_time.h"
+#include "run/tuning.h"
 #include "technique/kernel_sources.h"
 
 namespace gloam::bench {
@@ -29,8 +30,8 @@ KernelFrame kernel_frame(const Frame& frame) {
 }
 
 std::string options(const Tuning& tuning) {
-  return fmt::format("-cl-std=CL1.2 -D MATH_FAST=1 -D LANES={} -D DIRECTIONS={} -D STEPS={} -D JITTER=1{}",
-                     tuning.lanes, directions, steps, tuning.gathers_by_loads ? " -D GATHERS_BY_LOADS=1" : "");
+  return fmt::format("-cl-std=CL1.2 -D MATH_FAST=1 {} -D DIRECTIONS={} -D STEPS={} -D JITTER=1", options_of(tuning),
+                     directions, steps);
 }
 
 KernelText gather_text(const Tuning& tuning) {

@@ -26,26 +26,28 @@ std::set<std::string> lists_of(const Plan& plan) {
   return lists;
 }
 
-size_t layers_in_buffer(const Plan& plan, const std::string& name) {
-  if (const auto stack = plan.stacks.find(name); stack != plan.stacks.end()) return stack->second.size();
-  // Two techniques may make stacks of the same name, one after the other.
-  int layers = 1;
+namespace {
+
+/// The largest number of what writes a plane. Two techniques may make stacks of the same name, one after the other.
+size_t most_written(const Plan& plan, const std::string& plane, int Binding::*number) {
+  int most = 0;
   for (const PlannedPass& planned : plan.passes) {
     for (const Binding& binding : planned.pass.writes) {
-      if (binding.plane == name) layers = std::max(layers, binding.layers);
+      if (binding.plane == plane) most = std::max(most, binding.*number);
     }
   }
-  return size_t(layers);
+  return size_t(most);
+}
+
+}  // namespace
+
+size_t layers_in_buffer(const Plan& plan, const std::string& name) {
+  if (const auto stack = plan.stacks.find(name); stack != plan.stacks.end()) return stack->second.size();
+  return std::max<size_t>(most_written(plan, name, &Binding::layers), 1);
 }
 
 size_t more_rows_in_buffer(const Plan& plan, const std::string& name) {
-  int rows = 0;
-  for (const PlannedPass& planned : plan.passes) {
-    for (const Binding& binding : planned.pass.writes) {
-      if (binding.plane == name) rows = std::max(rows, binding.more_rows);
-    }
-  }
-  return size_t(rows);
+  return most_written(plan, name, &Binding::more_rows);
 }
 
 int Layouts::scale_of(const std::string& plane) const {

@@ -244,7 +244,7 @@ void lay_out(const Plan& plan, const DeviceView& given, Placement& placement, Vi
              std::vector<std::string>& copied) {
   std::set<std::string> in_stacks;
   for (const auto& [stack, layers] : plan.stacks) {
-    target.buffers.allocate_stack(stack, layers.size() * target.layout.bytes());
+    target.buffers.allocate_stack(stack, bytes_of_buffer(plan, target.layouts, stack));
     for (size_t i = 0; i < layers.size(); ++i) {
       placement.copy(*find(given.planes, layers[i]), 0, target.buffers.of(stack).front(), target.layout, i, false);
       in_stacks.insert(layers[i]);

@@ -21,7 +21,7 @@ Tuning tuning_for(const DeviceInfo& info, const RunOptions& options) {
 
 std::string build_options(const PlannedPass& planned, const DeviceInfo& info, const RunOptions& options,
                           const Tuning& tuning) {
-  std::string text = fmt::format("-cl-std=CL1.2 -D LANES={}", tuning.lanes);
+  std::string text = "-cl-std=CL1.2 " + options_of(tuning);
   if (options.math == Math::fast) text += " -D MATH_FAST=1";
   if (options.math == Math::precise && info.rounds_correctly) text += " -cl-fp32-correctly-rounded-divide-sqrt";
   if (options.real == Real::float64) text += " -D REAL_DOUBLE=1";
@@ -29,7 +29,6 @@ std::string build_options(const PlannedPass& planned, const DeviceInfo& info, co
   // The table of devices has a limit where the driver takes one.
   const int registers = of_kind(tuning, planned.pass).registers;
   if (registers > 0 && info.usual.search.registers > 0) text += fmt::format(" -cl-nv-maxrregcount={}", registers);
-  if (tuning.gathers_by_loads) text += " -D GATHERS_BY_LOADS=1";
   // Tests make quotients inexact, as they are on GPUs (docs/portability.md).
   if (const char* error = std::getenv("GLOAM_QUOTIENT_ERROR"); error && *error)
     text += fmt::format(" -D QUOTIENT_ERROR={}", std::atoi(error));

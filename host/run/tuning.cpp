@@ -29,6 +29,10 @@ std::optional<Tuning> tuning_in(const nlohmann::ordered_json& document, const Tu
   return tuning;
 }
 
+std::string options_of(const Tuning& tuning) {
+  return fmt::format("-D LANES={}{}", tuning.lanes, tuning.gathers_by_loads ? " -D GATHERS_BY_LOADS=1" : "");
+}
+
 const KernelTuning& of_kind(const Tuning& tuning, const Pass& pass) {
   return pass.footprint.is_wide ? tuning.search : tuning.others;
 }

@@ -56,6 +56,11 @@ Transfers::UnderWay Transfers::send(const cl::Context& context, const cl::Device
   return sent;
 }
 
+void Transfers::finish() {
+  const std::lock_guard alone(busy_);
+  if (queue_()) queue_.finish();
+}
+
 void Transfers::end(std::vector<UnderWay> planes) {
   const std::lock_guard alone(busy_);
   --frames_;
@@ -102,10 +107,14 @@ std::shared_ptr<Uploads> upload(const Plan& plan, const Frame& frame, Device& de
           uploads->planes.emplace(plane, impl.transfers.send(impl.context, impl.device, *plane));
       }
     }
-  } catch (const cl::Error&) {
-    return {};  // the run sends the planes itself, and says what is wrong
+    return uploads;
+  } catch (const cl::Error&) {  // the run sends the planes itself, and says what is wrong
   }
-  return uploads;
+  try {
+    impl.transfers.finish();  // a plane may be sent in part
+  } catch (const cl::Error&) {
+  }
+  return {};
 }
 
 }  // namespace gloam

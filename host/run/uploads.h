@@ -25,6 +25,8 @@ class Transfers {
   bool begin();
   /// Throws cl::Error.
   UnderWay send(const cl::Context& context, const cl::Device& device, const Plane& plane);
+  /// Waits for all that was sent.
+  void finish();
   /// Takes back the memory of what has arrived and is read no more. Ends a frame.
   void end(std::vector<UnderWay> planes);
 

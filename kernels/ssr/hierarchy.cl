@@ -72,7 +72,7 @@ kernel void ssr_level(ARGUMENTS) {
   const int below = LEVEL - 1, columns = (other.width + (1 << below) - 1) >> below;
   const int rows = (other.height + (1 << below) - 1) >> below, y = 2 * ROW_Y, next = min(y + 1, rows - 1);
   const int here = index_of_tile_row(other, FIRST_X, ROW_Y);
-  const size_t start = start_of_whole_level(other, LEVEL), start_below = start_of_whole_level(other, below);
+  const int start = START_OF_LEVEL(other, int, LEVEL), start_below = START_OF_LEVEL(other, int, below);
   global const float* near_below = nearness + start_below;
   const mask is_inside = to_mask(FIRST_X + IOTA < frame.width);
   const real nearest = larger_of_four(near_below, other, y, next);

@@ -7,6 +7,7 @@
 #include "gloam/error.h"
 #include "run/kept_folders.h"
 #include "run/kernel_cache.h"
+#include "run/tuning.h"
 
 namespace gloam::cli {
 namespace {
@@ -73,7 +74,6 @@ void print(const Diagnosis& diagnosis) {
 
 Json document_of(const Diagnosis& diagnosis) {
   const DeviceRecord& record = diagnosis.record;
-  const Tuning tuning = record.tuning.value_or(diagnosis.info.usual);
   Json tests = Json::array(), timed = Json::array();
   for (const TestResult& test : diagnosis.tests)
     tests.push_back({{"kind", test.kind},
@@ -82,22 +82,19 @@ Json document_of(const Diagnosis& diagnosis) {
                      {"same_bits", test.same_bits},
                      {"why", test.why}});
   for (const doctor::Timed& one : diagnosis.timed) timed.push_back(doctor::document_of(one));
-  return {{"device", diagnosis.info.name},
-          {"platform", diagnosis.info.platform},
-          {"driver", diagnosis.info.driver},
-          {"held", record.held},
-          {"lanes", tuning.lanes},
-          {"group", tuning.search.group},
-          {"group_of_others", tuning.others.group},
-          {"registers", tuning.search.registers},
-          {"gathers_by_loads", tuning.gathers_by_loads},
-          {"cold_ms", or_null(record.cold_ms)},
-          {"warm_ms", or_null(record.warm_ms)},
-          {"lacks", diagnosis.lacks},
-          {"failures", record.failures},
-          {"notes", diagnosis.notes},
-          {"tests", tests},
-          {"timed", timed}};
+  Json document = {{"device", diagnosis.info.name},
+                   {"platform", diagnosis.info.platform},
+                   {"driver", diagnosis.info.driver},
+                   {"held", record.held}};
+  document.update(gloam::document_of(record.tuning.value_or(diagnosis.info.usual)));
+  document.update({{"cold_ms", or_null(record.cold_ms)},
+                   {"warm_ms", or_null(record.warm_ms)},
+                   {"lacks", diagnosis.lacks},
+                   {"failures", record.failures},
+                   {"notes", diagnosis.notes},
+                   {"tests", tests},
+                   {"timed", timed}});
+  return document;
 }
 
 /// What is to be said of the folder, and of what was in it.

@@ -115,15 +115,9 @@ static inline Hierarchy hierarchy_of(global const float* nearness, global const 
 
 // Where a level starts in its stack: after the rows of the levels before, each half as many as in the one before and up to 16 more, to
 // fill its tiles. So a stack has twice the image's rows and 16 for each level.
-static inline integer start_of_level(Frame image, integer level) {
-  const integer rows = 2 * image.height;
-  return (rows - (rows >> level) + (level << 4)) * image.pitch;
-}
-
-static inline size_t start_of_whole_level(Frame image, int level) {
-  const int rows = 2 * image.height;
-  return (size_t)(rows - (rows >> level) + (level << 4)) * image.pitch;
-}
+// `type`: of the level, an int or one in each lane.
+#define START_OF_LEVEL(image, type, level) \
+  (((type)(2 * (image).height) - ((type)(2 * (image).height) >> (level)) + ((level) << 4)) * (image).pitch)
 
 static inline int floats_of_layer(Frame image) { return 2 * FRAME_GUARD + image.pitch * image.height; }
 
@@ -144,11 +138,11 @@ static inline int index_of_tile_row(Frame image, int x, int y) {
 
 // The largest nearness in a cell; farthest_in: the smallest.
 static inline real nearest_in(Frame f, Hierarchy h, Place p, Cell c) {
-  return gather(h.nearness, start_of_level(f, p.level) + index_in_tiles(f, c.x, c.y));
+  return gather(h.nearness, START_OF_LEVEL(f, integer, p.level) + index_in_tiles(f, c.x, c.y));
 }
 
 static inline real farthest_in(Frame f, Hierarchy h, Place p, Cell c) {
-  return gather(h.farness, start_of_level(f, p.level) + index_in_tiles(f, c.x, c.y));
+  return gather(h.farness, START_OF_LEVEL(f, integer, p.level) + index_in_tiles(f, c.x, c.y));
 }
 
 // Nearness relative to the ray's start, in the ray's units.
