@@ -32,12 +32,20 @@ static inline scalar weight_of(int k, scalar sigma) {
   return exp_of_minus((scalar)0.5 * t * t);
 }
 
+// The weights of a pixel and of those to one side of it, the nearest first.
+static inline void weights_of(Params params, scalar* weights) {
+#pragma unroll
+  for (int k = 0; k <= HALF_WIDTH; ++k) weights[k] = weight_of(k, params.sigma);
+}
+
 // in : source, depth; wanted
 // out: sum, weight
 kernel void gaussian_horizontal(ARGUMENTS) {
   SKIP_UNWANTED(frame, )
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const integer x = FIRST_X + IOTA;
+  scalar of_taps[HALF_WIDTH + 1];
+  weights_of(params, of_taps);
   real values = 0, weights = 0;
 #pragma unroll
   for (int k = -HALF_WIDTH; k <= HALF_WIDTH; ++k) {
@@ -45,7 +53,7 @@ kernel void gaussian_horizontal(ARGUMENTS) {
     const mask counts = inside & !is_background(load(depth, here + k));
     // Chosen before the multiplication: memory beside the image may hold anything.
     const real value = choose(counts, load(source, here + k), (real)(0));
-    const scalar w = weight_of(k, params.sigma);
+    const scalar w = of_taps[abs(k)];
     values = multiply_add((real)(w), value, values);
     weights += choose(counts, (real)(w), (real)(0));
   }
@@ -59,12 +67,14 @@ kernel void gaussian_vertical(ARGUMENTS) {
   const int y = ROW_Y, here = index_of(frame, FIRST_X, y);
   SKIP_UNWANTED(frame, store((real)(1), result, here))
   const mask background = is_background(load(depth, here));
+  scalar of_taps[HALF_WIDTH + 1];
+  weights_of(params, of_taps);
   real values = 0, weights = 0;
 #pragma unroll
   for (int k = -HALF_WIDTH; k <= HALF_WIDTH; ++k) {
     if (y + k < 0 || y + k >= frame.height) continue;
     const int there = here + k * frame.pitch;
-    const scalar w = weight_of(k, params.sigma);
+    const scalar w = of_taps[abs(k)];
     values = multiply_add((real)(w), load(sum, there), values);
     weights = multiply_add((real)(w), load(weight, there), weights);
   }

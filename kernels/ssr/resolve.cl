@@ -40,6 +40,7 @@ typedef struct {
 } SeenRay;
 
 static inline void take_ray(Reflected* sum, Reflector s, SeenRay ray, mask counts) {
+  MAY_FUSE
   const real3 light = into_frame(s, ray.direction);
   const real3 h = make3(light.x + s.to_eye.x, light.y + s.to_eye.y, larger(light.z + s.to_eye.z, (real)(1e-6f)));
   const real share = reflected_share(s.alpha, s.to_eye, light, h, hidden_per_seen(s.alpha, s.to_eye));
@@ -60,6 +61,7 @@ static inline void take_ray(Reflected* sum, Reflector s, SeenRay ray, mask count
 
 // Direction from the pixel at hand to what another pixel's ray meets. `v`: to that pixel, in depths of the pixel at hand.
 static inline real3 towards_met(Reflector s, real3 v, real3 direction, real length) {
+  MAY_FUSE
   const real reach = length / s.depth;
   const mask is_near = (reach > 0) & (reach < FAR_ENOUGH);
   const real3 met = make3(v.x + direction.x * reach, v.y + direction.y * reach, v.z + direction.z * reach);
