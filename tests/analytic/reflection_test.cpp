@@ -344,6 +344,16 @@ TEST(StereoReflection, GoesOnInTheOtherEyeBeyondTheBorder) {
   }
 }
 
+// As in one image: rays that go on in the other eye are followed by work-items that share a list too.
+TEST(StereoReflection, WorkItemsThatShareRaysLoseNone) {
+  const Shot shot = perspective(960, 540, 70);
+  Frame pair = pair_of(MirrorRoom(shot, -0.2), MirrorRoom(shot, 0.2));
+  const Technique& stereo = find_technique("stereo-ssr");
+  const Settings settings = {{"rays", "2"}};
+  const Frame one = outputs_of(stereo, pair, settings, {.math = Math::precise, .lanes = 1});
+  EXPECT_TRUE(same_bits(one, outputs_of(stereo, pair, settings, {.math = Math::precise, .lanes = 16})));
+}
+
 // The wall behind a post, where the other eye sees it.
 TEST(StereoReflection, GoesOnInTheOtherEyeBehindThings) {
   const Shot shot = perspective(240, 180, 70);
