@@ -17,4 +17,5 @@ def lanes(lab):
 
 
 record(PAGE, "The past as hidden layers", why="the second layer was projected from earlier frames by code that is not part of the project")
+record(PAGE, "Edges once per pixel", why="filters were computed from raw images by code that is not part of the project")
 record(PAGE, "The first image", why="read from the log and the system calls of a driver of OpenCL, on one machine")
