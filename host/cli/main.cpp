@@ -14,6 +14,7 @@
 #include "cli/flags/options.h"
 #include "cli/list/techniques.h"
 #include "cli/process/same_mathematics.h"
+#include "cli/process/words.h"
 #include "gloam/error.h"
 #include "gloam/option.h"
 #include "gloam/scene/scene.h"
@@ -44,10 +45,10 @@ std::set<std::string> settable_by(const CLI::App* command_line) {
   return names;
 }
 
-/// The command that the arguments begin with; null if they begin with none.
-const CLI::App* command_of(CLI::App& app, int argc, char** argv) {
+/// The command that the words begin with; null if they begin with none.
+const CLI::App* command_of(CLI::App& app, const std::vector<std::string>& words) {
   const std::vector<CLI::App*> found =
-      app.get_subcommands([&](const CLI::App* command) { return argc > 1 && command->get_name() == argv[1]; });
+      app.get_subcommands([&](const CLI::App* command) { return !words.empty() && command->get_name() == words[0]; });
   return found.empty() ? nullptr : found.front();
 }
 
@@ -62,16 +63,12 @@ void check_switch(const CLI::App* command, const std::string& argument) {
 }
 
 /// Every parameter is a flag: --normal-tolerance 0.5 becomes --set normal_tolerance=0.5.
-std::vector<std::string> with_parameter_flags(CLI::App& app, int argc, char** argv) {
-  const CLI::App* const command = command_of(app, argc, argv);
+std::vector<std::string> with_parameter_flags(CLI::App& app, const std::vector<std::string>& words) {
+  const CLI::App* const command = command_of(app, words);
   const std::set<std::string> names = settable_by(command);
   std::vector<std::string> arguments;
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    // Most likely from an unset shell variable.
-    if (argument.empty())
-      throw UsageError("argument {} is empty{}; give it a value or leave it out", i,
-                       i > 1 ? fmt::format(" (after '{}')", argv[i - 1]) : "");
+  for (size_t i = 0; i < words.size(); ++i) {
+    const std::string& argument = words[i];
     check_switch(command, argument);
     const size_t equals = argument.find('=');
     std::string name =
@@ -84,14 +81,26 @@ std::vector<std::string> with_parameter_flags(CLI::App& app, int argc, char** ar
     arguments.push_back("--set");
     if (equals != std::string::npos) {
       arguments.push_back(name + argument.substr(equals));
-    } else if (i + 1 < argc) {
-      arguments.push_back(name + "=" + argv[++i]);
+    } else if (i + 1 < words.size()) {
+      arguments.push_back(name + "=" + words[++i]);
     } else {
       throw UsageError("{} needs a value", argument);
     }
   }
   std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
   return arguments;
+}
+
+/// The words of the command line. Throws UsageError for an empty one.
+std::vector<std::string> words_of(int argc, char** argv) {
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  for (size_t i = 0; i < words.size(); ++i) {
+    // Most likely from an unset shell variable.
+    if (words[i].empty())
+      throw UsageError("argument {} is empty{}; give it a value or leave it out", i + 1,
+                       i > 0 ? fmt::format(" (after '{}')", words[i - 1]) : "");
+  }
+  return words;
 }
 
 std::vector<std::string> flag_names(const CLI::App& command) {
@@ -109,13 +118,9 @@ std::string usage_message(CLI::App& app, const CLI::ParseError& error) {
   const std::string command = parsed.empty() ? "" : parsed.front()->get_name();
   const std::string help = fmt::format("(gloam {}{}--help)", command, command.empty() ? "" : " ");
   const std::vector<std::string> extras = app.remaining(true);
-  if (command.empty() && !extras.empty()) {
-    std::vector<std::string> names;
-    for (const CLI::App* sub : app.get_subcommands([](CLI::App* shown) { return !shown->get_group().empty(); }))
-      names.push_back(sub->get_name());
-    return fmt::format("no command '{}'{}; there are {} {}", extras.front(), suggestion(extras.front(), names),
-                       enumerate(names), help);
-  }
+  if (command.empty() && !extras.empty()) return meant_by_first_word(app, extras.front());
+  if (!command.empty())
+    if (const std::string meant = meant_without_technique(*parsed.front()); !meant.empty()) return meant;
   if (!extras.empty()) {
     const std::string& extra = extras.front();
     const bool is_flag = extra.rfind("-", 0) == 0;
@@ -142,16 +147,16 @@ void print_parameters(const std::string& owner, const ParameterList& parameters,
 }
 
 /// `gloam run hbao+ --help` and `gloam capture statue --help` also show the parameters.
-void print_parameters_of(CLI::App& app, int argc, char** argv) {
-  const std::set<std::string> settable = settable_by(command_of(app, argc, argv));
-  for (int i = 1; i < argc; ++i) {
+void print_parameters_of(CLI::App& app, const std::vector<std::string>& words) {
+  const std::set<std::string> settable = settable_by(command_of(app, words));
+  for (const std::string& word : words) {
     const std::vector<std::string> names = technique_names();
-    const std::string name = technique_for(argv[i]);
+    const std::string name = technique_for(word);
     if (contains(names, name)) {
       fmt::print("\n");
       print_technique(find_technique(name), settable);
     }
-    if (const SceneRecipe* recipe = find_builtin_scene(argv[i]))
+    if (const SceneRecipe* recipe = find_builtin_scene(word))
       print_parameters(recipe->name, recipe->parameters, settable);
   }
 }
@@ -202,19 +207,20 @@ int run_command(int argc, char** argv) {
   add_doctor(app);
   add_completion(app, settable_by);
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) add_quiet_flag(*command);
+  const std::vector<std::string> words = completed_words(words_of(argc, argv));
   // Prints help for a person who looks for the commands. The exit status is that of wrong usage, as git's is not 0 either: a script
   // whose command is empty by mistake must fail.
-  if (argc < 2) {
+  if (words.empty()) {
     fmt::print("{}", app.help());
     return UsageError("").exit_status();
   }
   const auto show = [&](const CLI::Success& what) {
     const int status = app.exit(what);  // --help, --version
-    print_parameters_of(app, argc, argv);
+    print_parameters_of(app, words);
     return status;
   };
   try {
-    app.parse(with_parameter_flags(app, argc, argv));
+    app.parse(with_parameter_flags(app, words));
   } catch (const CLI::Success& success) {
     return show(success);
   } catch (const UsageError&) {  // a value that is not allowed

@@ -206,6 +206,28 @@ void note_differences(const FrameFile& test, const FrameFile& reference, const P
   if (planes.test == "ao" || planes.test == "ao_raw") note_other_radius(test, reference, notes);
 }
 
+std::string frame_of_result(const FrameFile& test, const FrameFile& reference, const ReadOptions& options,
+                            std::vector<std::string>& notes) {
+  if (contains(test.common_planes(), "depth") || contains(reference.common_planes(), "depth")) return "";
+  const std::string named = test.text_attribute(frame_attribute);
+  const std::filesystem::path path = test.path().parent_path() / named;
+  std::error_code unknown;
+  if (named.empty() || !std::filesystem::is_regular_file(path, unknown)) return "";
+  try {
+    const FrameFile frame(path, options_beside(options, path));
+    const std::vector<std::string> views = frame.views();
+    const bool has_views = std::all_of(test.views().begin(), test.views().end(),
+                                       [&](const std::string& view) { return contains(views, view); });
+    if (!has_views || !contains(frame.common_planes(), "depth") || frame.window() != test.window()) return "";
+  } catch (const Error&) {
+    return "";
+  }
+  notes.push_back(
+      fmt::format("no depth in either file: the background is that of {}, which the test was made of; {} names another",
+                  path.string(), option("frame", "FRAME.exr")));
+  return path.string();
+}
+
 FrameFile background_file(const ComparedFiles& files, const ReadOptions& options) {
   FrameFile file(files.frame, options_beside(options, files.frame));
   if (!contains(file.common_planes(), "depth"))

@@ -68,6 +68,11 @@ double exposure_of(const ComparedFiles& files, const FrameFile& reference, const
 void note_differences(const FrameFile& test, const FrameFile& reference, const PlanePair& planes,
                       std::vector<std::string>& notes);
 
+/// The frame that the test was made of, where neither file has depth, the test names the frame and the frame has the depth of all its views; else
+/// empty. Adds a note.
+std::string frame_of_result(const FrameFile& test, const FrameFile& reference, const ReadOptions& options,
+                            std::vector<std::string>& notes);
+
 /// The frame that is named beside the two, and whose depth tells the background. Throws Error for one without depth.
 FrameFile background_file(const ComparedFiles& files, const ReadOptions& options);
 

@@ -38,7 +38,9 @@ TwoFiles::TwoFiles(const ComparedFiles& files, ReadOptions options, std::vector<
       }()),
       test_{FrameFile(files.test, options_), {}},
       reference_{FrameFile(files.reference, options_beside(options_, files.reference)), {}},
-      pairs_(pair_views(test_.file, reference_.file, !options_.views.empty(), notes)) {}
+      pairs_(pair_views(test_.file, reference_.file, !options_.views.empty(), notes)) {
+  if (files_.frame.empty()) files_.frame = frame_of_result(test_.file, reference_.file, options_, notes);
+}
 
 unsigned long long TwoFiles::bytes(bool draws) const {
   return bytes_of_comparison(files_, options_, test_.file, reference_.file, draws);

@@ -174,7 +174,7 @@ void add_history(Frame& frame, Frame before, const std::vector<std::string>& pla
 History::History(const std::filesystem::path& path) : file_(path, {}) {
   const std::vector<std::string> there = file_.common_planes();
   const auto refuse = [&](const std::string& lacks) {
-    throw Error("{}: has no {}; give the file that gloam run wrote for the frame before, without --bare",
+    throw Error("{}: has no {}; give the file that gloam run --temporal wrote for the frame before, without --bare",
                 option("history", path.string()), lacks);
   };
   const bool has_result = std::any_of(there.begin(), there.end(), [](const std::string& plane) {

@@ -68,6 +68,14 @@ std::vector<WrittenChannel> channels_of_view(const View& view, const glm::dvec3&
   return channels;
 }
 
+const Plane* shown_plane(const View& view) {
+  static const std::vector<std::string> results = {"ao", "ao_raw", "specular_occlusion", "contact", "mask"};
+  if (view.find("color")) return nullptr;
+  for (const std::string& name : results)
+    if (const Plane* plane = view.find(name)) return plane;
+  return nullptr;
+}
+
 std::vector<WrittenChannel> written_channels(const Frame& frame, const WriteOptions& options) {
   std::vector<WrittenChannel> channels;
   for (const View& view : frame.views) {
@@ -77,6 +85,9 @@ std::vector<WrittenChannel> written_channels(const Frame& frame, const WriteOpti
       channel.name = channel_name(channel.name, view.name, first);
       channels.push_back(std::move(channel));
     }
+    if (const Plane* plane = options.shows_result ? shown_plane(view) : nullptr)
+      channels.push_back(
+          {channel_name("Y", view.name, first), type_of(plane_kind(plane->name), options), &plane->channels.front()});
   }
   return channels;
 }

@@ -23,7 +23,11 @@ struct WrittenChannel {
   double shift = 0;  ///< added to each value: positions become relative to the written origin
 };
 
-/// gloam's channel names, in OpenEXR's multi-view form.
+/// The result that programs show which know no channel of gloam's: it is written as luminance, Y, too. Null where the view has colour,
+/// or no result of one value.
+const Plane* shown_plane(const View& view);
+
+/// gloam's channel names, in OpenEXR's multi-view form, and Y where asked for.
 std::vector<WrittenChannel> written_channels(const Frame& frame, const WriteOptions& options);
 
 /// Those of one view, without its name. `shift`: added to positions.

@@ -175,6 +175,10 @@ Wanted wanted_by(const PlanRequest& request, const std::vector<std::string>& ava
     throw UsageError("{}: no output '{}'{}; there are {}", request.outputs.front(), plane,
                      suggestion(plane, wanted.outputs), enumerate(wanted.outputs));
   }
+  if (request.only_filtered && request.only_outputs.empty())
+    std::erase_if(wanted.outputs, [outputs = wanted.outputs](const std::string& plane) {
+      return plane.ends_with("_raw") && contains(outputs, plane.substr(0, plane.size() - 4));
+    });
   if (!request.only_outputs.empty()) {
     wanted.outputs.clear();
     for (const std::string& plane : request.only_outputs) add_new(wanted.outputs, plane);

@@ -67,7 +67,8 @@ void write(const std::string& path, const HeldFrame* frame, HeldFrame* more, con
   if (std::filesystem::path(path).extension() != ".exr")
     throw UsageError("write {}: a frame is an EXR file; name it with .exr", path);
   if (const std::string why = why_unwritable(path); !why.empty()) throw Error("{}: cannot be written, {}", path, why);
-  const WriteOptions options{.half = half, .compression = compression};
+  const WriteOptions options{
+      .half = half, .compression = compression, .half_planes = {}, .shows_result = more != nullptr};
   check(options);
   without_lock([&](Interrupts&) {
     Frame whole = joined(frame, more, carried);

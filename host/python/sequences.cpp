@@ -187,7 +187,9 @@ py::tuple write_over(const SharedSequence& sequence, const py::dict& words, cons
                       .computing = plan_request(request_words),
                       .options = run_options(option_words),
                       .writing = {.half = py::cast<bool>(writing["half"]),
-                                  .compression = py::cast<std::string>(writing["compression"])},
+                                  .compression = py::cast<std::string>(writing["compression"]),
+                                  .half_planes = {},
+                                  .shows_result = true},
                       .keeps_depth = py::cast<bool>(writing["keep_depth"]),
                       .resumes = py::cast<bool>(writing["resume"])};
   request.computing.temporal = py::cast<bool>(writing["temporal"]);

@@ -1,5 +1,7 @@
 #include "shot/outputs.h"
 
+#include <filesystem>
+
 #include "base/lists.h"
 #include "gloam/color_holds.h"
 #include "gloam/error.h"
@@ -53,9 +55,20 @@ OutputSources read_sources(PlannedFrame& planned) {
   return sources;
 }
 
+void name_frame(Frame& result, const std::string& frame, const std::string& out) {
+  namespace fs = std::filesystem;
+  std::error_code unknown;
+  const fs::path path = fs::proximate(fs::absolute(frame), fs::absolute(out).parent_path(), unknown);
+  if (!unknown) result.attributes[frame_attribute] = path.generic_string();
+}
+
 std::vector<std::string> write_outputs(const FrameOutputs& outputs, OutputSources& sources, Frame& result,
                                        const OutputSettings& settings) {
-  if (!outputs.out.empty()) write_frame(outputs.out, result, settings.out);
+  if (!outputs.out.empty()) {
+    name_frame(result, sources.file, outputs.out);
+    write_frame(outputs.out, result, settings.out);
+    result.attributes.erase(frame_attribute);
+  }
   const WriteOptions as_colour{false, settings.out.compression, sources.half_planes};
   if (outputs.has_composite()) make_composite(sources, result, settings);
   if (!outputs.composite.empty())

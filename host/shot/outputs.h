@@ -52,6 +52,10 @@ struct OutputSources {
 /// Reads the colour, if a composite is asked for.
 OutputSources read_sources(PlannedFrame& planned);
 
+/// Leaves the name of the frame in a result that is written to `out`, as a path from there (attribute `gloamFrame`): `compare` asks the frame
+/// for the background.
+void name_frame(Frame& result, const std::string& frame, const std::string& out);
+
 /// Writes the files. Afterwards the result has only the planes of the copy, if one is asked for. Returns notes.
 std::vector<std::string> write_outputs(const FrameOutputs& outputs, OutputSources& sources, Frame& result,
                                        const OutputSettings& settings);

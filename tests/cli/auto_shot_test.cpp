@@ -33,7 +33,7 @@ TEST_F(AutoShot, EachFrameIsThatOfARunOnItAlone) {
                   .status,
               0);
     FrameFile of_shot(path(numbered("out", number)), {.as_stored = true}), alone(path("one.exr"), {.as_stored = true});
-    EXPECT_EQ(of_shot.all_channels(), std::vector<std::string>{"AO"});
+    EXPECT_EQ(of_shot.all_channels(), (std::vector<std::string>{"AO", "Y"}));
     EXPECT_EQ(of_shot.planes()[0].channels[0].type, "half");
     EXPECT_TRUE(same_bits(of_shot.read({"ao"}), alone.read({"ao"}))) << number;
     EXPECT_EQ(of_shot.text_attribute("gloamParameters"), alone.text_attribute("gloamParameters"));
@@ -60,7 +60,7 @@ TEST_F(AutoShot, OneRadiusForAllFrames) {
 TEST_F(AutoShot, GoesOn) {
   make_changing_shot();
   ASSERT_EQ(automatic({"--radius", "0.5", "--keep-depth", "--float"}).status, 0);
-  EXPECT_EQ(FrameFile(path("out.0001.exr"), {}).all_channels(), (std::vector<std::string>{"AO", "Z"}));
+  EXPECT_EQ(FrameFile(path("out.0001.exr"), {}).all_channels(), (std::vector<std::string>{"AO", "Y", "Z"}));
   const std::map<std::string, std::string> whole = contents("out.");
   fs::remove(path("out.0002.exr"));
   const Result result = automatic({"--radius", "0.5", "--keep-depth", "--float", "--resume", "--json", "-"});

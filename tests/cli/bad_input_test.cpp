@@ -22,7 +22,6 @@ TEST_F(Cli, WrongUsage) {
   const std::string out = path("ao.exr");
   expect_refused(gloam({"rnu", "hbao+", loggia}), 2, {"'rnu'", "did you mean 'run'"});
   expect_refused(gloam({"run", "hbaos", loggia, "-o", out}), 2, {"'hbaos'", "did you mean 'hbao"});
-  expect_refused(gloam({"run", "hbao+", loggia}), 2, {"run", "--output"});
   expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--radus", "1"}), 2, {"--radus", "did you mean '--radius'"});
   expect_refused(gloam({"run", "hbao+", loggia, "-o", out, "--radius", "-1"}), 2,
                  {"radius", "-1", "0 to inf", "scene units"});
@@ -74,7 +73,8 @@ TEST_F(Cli, NamesSpeltAnotherWayAreSuggested) {
 TEST_F(Cli, FramesAreWrittenUnderTheNamesOfFrames) {
   for (const char* name : {"ao.png", "ao", "-"}) {
     const std::string out = std::string(name) == "-" ? name : path(name).string();
-    expect_refused(gloam({"run", "hbao+", loggia, "-o", out}), 2, {"-o " + out, ".exr"});
+    if (std::string(name) != "ao.png")  // a picture
+      expect_refused(gloam({"run", "hbao+", loggia, "-o", out}), 2, {"-o " + out, ".exr"});
     expect_refused(gloam({"reference", "ao", loggia, "--scene", "plane", "-o", out}), 2, {"-o " + out, ".exr"});
     expect_refused(gloam({"capture", "plane", "-o", out, "--size", "8x8"}), 2, {"-o " + out, ".exr"});
   }
@@ -138,7 +138,7 @@ TEST_F(Cli, WhatIsCompleteIsSaidWhereTheFiguresFail) {
   const std::string command = std::string(GLOAM_BINARY) + " run hbao+ " + loggia + " -o " + out + " --json -";
   EXPECT_EQ(WEXITSTATUS(std::system((command + " >/dev/full 2>" + path("said").string()).c_str())), 1);
   EXPECT_EQ(slurp(path("said")), "gloam: standard output: cannot be written; " + out + " is complete\n");
-  EXPECT_EQ(FrameFile(out, {}).all_channels(), (Arguments{"AO", "AO_raw", "Z"}));
+  EXPECT_EQ(FrameFile(out, {}).all_channels(), (Arguments{"AO", "Y"}));
 }
 
 TEST_F(Cli, ControlBytesNeverReachTheTerminal) {
@@ -272,7 +272,8 @@ TEST_F(Cli, AFullDiskLeavesTheOldFile) {
   const rlimit tight{8000000, before.rlim_max};
   signal(SIGXFSZ, SIG_IGN);  // inherited: the write fails instead
   setrlimit(RLIMIT_FSIZE, &tight);
-  const Result result = gloam({"run", "hbao+", path("frame.exr"), "-o", path("ao.exr"), "--compression", "none"});
+  const Result result = gloam({"run", "hbao+", path("frame.exr"), "-o", path("ao.exr"), "--compression", "none",
+                               "--float", "--outputs", "ao,ao_raw", "--keep-depth"});
   setrlimit(RLIMIT_FSIZE, &before);
   expect_refused(result, 1, {"ao.exr"});
   EXPECT_EQ(slurp(path("ao.exr")), "what was there");

@@ -34,7 +34,7 @@ class BenchEffects : public Cli {
   /// What gloam run and gloam compare say about the same image.
   double rmse_of(const std::string& technique, const std::string& effect, const fs::path& frame, const fs::path& truth,
                  const Arguments& settings) const {
-    Arguments run = {"run", technique, frame, "-o", path("out.exr")};
+    Arguments run = {"run", technique, frame, "-o", path("out.exr"), "--float"};
     run.insert(run.end(), settings.begin(), settings.end());
     const Result made = gloam(run);
     EXPECT_EQ(made.status, 0) << made.err;

@@ -47,7 +47,8 @@ TEST_F(BenchSet, MeasuresEveryItemAndKeepsSubmittedRows) {
   EXPECT_TRUE(row("room", "stereo-ao").is_null());
   EXPECT_TRUE(row("room", "indirect", "indirect").is_object());
   // the same image through gloam score has the same figures
-  ok({"run", "hbao+", frame("room"), "-o", path("images/room_ao.exr"), "--preset", "low", "--set", "radius=0.5"});
+  ok({"run", "hbao+", frame("room"), "-o", path("images/room_ao.exr"), "--float", "--preset", "low", "--set",
+      "radius=0.5"});
   entry({{"name", "hbao+ again"}});
   ASSERT_EQ(score_images({"--items", "room"}).status, 0);
   for (const char* figure : {"rmse_to_truth", "bias", "ssim", "flip"})

@@ -374,7 +374,8 @@ TEST_F(Cli, BenchOfOnesOwnFrameAgreesWithRunAndCompare) {
   EXPECT_TRUE(row["ladder"]["t0w"].is_null());  // no scene to trace
   EXPECT_TRUE(row["ladder"]["t1"].is_null());   // one layer
   EXPECT_GT(row["ladder"]["t3"], 1e-3);
-  ASSERT_EQ(gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--preset", "low", "--radius", "0.5"}).status, 0);
+  ASSERT_EQ(
+      gloam({"run", "hbao+", loggia, "-o", path("ao.exr"), "--preset", "low", "--radius", "0.5", "--float"}).status, 0);
   const Json figures = gloam({"compare", path("ao.exr"), loggia_truth, "--json", "-"}).json();
   EXPECT_NEAR(row["rmse_to_truth"], figures["rmse"], 1e-7);
   EXPECT_NEAR(row["bias"], figures["bias"], 1e-7);

@@ -92,7 +92,7 @@ TEST_F(CameraByPositions, DepthIsMadeWhereThereIsNone) {
   expect_fit(document, seen.camera, 0.01);
   EXPECT_NE(notes(document).find("depth: made from the positions"), std::string::npos) << notes(document);
   EXPECT_NEAR(document["background_share"], 69 * 40.0 / (320 * 180), 1e-9);
-  ASSERT_EQ(gloam({"run", "gtao", path("frame.exr"), "-o", path("ao.exr"), "--radius", "1"}).status, 0);
+  ASSERT_EQ(gloam({"run", "gtao", path("frame.exr"), "-o", path("ao.exr"), "--radius", "1", "--keep-depth"}).status, 0);
   const Frame out = FrameFile(path("ao.exr"), {}).read({"depth", "ao"});
   const Channel& z = out.views[0].planes.at("depth").channels[0];
   for (const auto& [x, y] : {std::pair(10, 10), {130, 100}, {300, 170}})

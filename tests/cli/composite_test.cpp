@@ -62,7 +62,7 @@ class Composite : public ShotTest {
 TEST_F(Composite, IsColourTimesAO) {
   const Frame frame = coloured();
   write_frame(path("f.exr"), frame);
-  ASSERT_EQ(composite({"-o", file("ao.exr"), "--composite", file("c.exr")}).status, 0);
+  ASSERT_EQ(composite({"-o", file("ao.exr"), "--float", "--composite", file("c.exr")}).status, 0);
   const Frame before = stored("f.exr", {"color"}), ao = stored("ao.exr", {"ao"});
   expect_darkened(before, ao, stored("c.exr", {"color"}), 1, {0, 0, 0});
   EXPECT_EQ(FrameFile(path("c.exr"), {}).all_channels(), (std::vector<std::string>{"B", "G", "R"}));
@@ -146,7 +146,7 @@ TEST_F(Composite, OfTwoEyesAndInACopy) {
   other.views[0].camera->pose = Pose{};
   pair.views.push_back(std::move(other.views[0]));
   write_frame(path("f.exr"), pair);
-  ASSERT_EQ(composite({"-o", file("ao.exr"), "--composite", file("c.exr")}).status, 0);
+  ASSERT_EQ(composite({"-o", file("ao.exr"), "--float", "--composite", file("c.exr")}).status, 0);
   const Frame ao = stored("ao.exr", {"ao"});
   ASSERT_EQ(ao.views.size(), 2u);
   expect_darkened(pair, ao, stored("c.exr", {"color"}), 1, {0, 0, 0});

@@ -33,7 +33,7 @@ TEST_F(History, ASequenceComesNearerToTheTruthThanItsFrames) {
   ONLY_IN_LONG_RUN();
   constexpr int last = 6;
   walk(last, "320x180");
-  ASSERT_EQ(gloam({"run", "sssr", frame(1), "-o", result(1)}).status, 0);
+  ASSERT_EQ(gloam({"run", "sssr", frame(1), "-o", result(1), "--keep-depth"}).status, 0);
   for (int i = 2; i <= last; ++i) {
     const Result run = gloam({"run", "temporal-sssr", frame(i), "--history", result(i - 1), "-o", result(i)});
     ASSERT_EQ(run.status, 0) << run.err;
@@ -52,7 +52,7 @@ TEST_F(History, ASequenceComesNearerToTheTruthThanItsFrames) {
   }
   EXPECT_GT(double(all), 0.6 * double(some));
 
-  ASSERT_EQ(gloam({"run", "sssr", frame(last), "-o", path("alone.exr"), "--seed", "5"}).status, 0);
+  ASSERT_EQ(gloam({"run", "sssr", frame(last), "-o", path("alone.exr"), "--seed", "5", "--keep-depth"}).status, 0);
   ASSERT_EQ(
       gloam({"reference", "reflection", frame(last), "--scene", "gallery", "--samples", "64", "-o", path("truth.exr")})
           .status,
@@ -83,7 +83,7 @@ TEST_F(History, IsPlannedAndRefusedInOneLine) {
   };
   refused(with({"--history", frame(1)}), 1, "has no 'reflection', 'ao_raw' or 'indirect_raw'");
   refused(with({"--history", path("none.exr")}), 1, "none.exr");
-  ASSERT_EQ(gloam({"run", "sssr", frame(1), "-o", result(1)}).status, 0);
+  ASSERT_EQ(gloam({"run", "sssr", frame(1), "-o", result(1), "--keep-depth"}).status, 0);
   refused(with({"--history", result(1), "--resolution", "half"}), 2, "--resolution");
   refused(with({"--history", result(2)}), 2, "is also --history");
   EXPECT_EQ(files(), (std::vector<std::string>{"f.0001.exr", "f.0002.exr", "path.json", "r.0001.exr"}));
@@ -96,7 +96,7 @@ TEST_F(History, IsPlannedAndRefusedInOneLine) {
   EXPECT_EQ(plan.dump().find("r.0001.exr: frames"), std::string::npos) << "the file has none";
   ASSERT_EQ(gloam(with({"--history", result(1)})).status, 0);
   ASSERT_EQ(gloam({"capture", "gallery", "-o", path("small.exr"), "--size", "16x9"}).status, 0);
-  ASSERT_EQ(gloam({"run", "sssr", path("small.exr"), "-o", path("small_r.exr")}).status, 0);
+  ASSERT_EQ(gloam({"run", "sssr", path("small.exr"), "-o", path("small_r.exr"), "--keep-depth"}).status, 0);
   refused(with({"--history", path("small_r.exr")}), 1, "shows 16x9 pixels from (0, 0), and the frame 32x18");
   refused({"auto", frame(2), "--history", result(1), "-o", path("auto.exr")}, 2, "auto takes nothing over");
 }

@@ -50,7 +50,8 @@ class CliIndirect : public ShotTest {
 
   /// What a technique makes of the pair, or of another frame.
   Frame made(const std::string& technique, const Settings& settings = {}, const std::string& frame = "pair.exr") const {
-    Arguments all = {"run", technique, path(frame), "-o", path("light.exr"), "--radius", "0.5", "--math", "precise"};
+    Arguments all = {"run", technique, path(frame), "-o",        path("light.exr"),       "--radius",
+                     "0.5", "--math",  "precise",   "--outputs", "indirect,indirect_raw", "--keep-depth"};
     for (const std::string& setting : settings) all.insert(all.end(), {"--set", setting});
     const Result result = gloam(all);
     EXPECT_EQ(result.status, 0) << result.err;

@@ -99,8 +99,8 @@ TEST_F(Display, ShowsWhatACameraFrames) {
 
 TEST_F(Display, RunWithReuseAndCompare) {
   expect_captured("F.exr");
-  const Result result =
-      gloam({"run", "lightfield-ssao", file("F.exr"), "-o", file("O.exr"), "--set", "reuse=on", "--json", "-"});
+  const Result result = gloam({"run", "lightfield-ssao", file("F.exr"), "-o", file("O.exr"), "--set", "reuse=on",
+                               "--keep-depth", "--json", "-"});
   ASSERT_EQ(result.status, 0) << result.err;
   const nlohmann::json said = result.json();
   EXPECT_EQ(said["technique"], "lightfield-ssao");

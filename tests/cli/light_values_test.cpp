@@ -61,7 +61,8 @@ class CliLight : public Cli {
   /// Lines of `info` and of `run` that speak of a plane.
   std::string notes_of_info(const std::string& frame) const { return lines(gloam({"info", frame}).out, "assumed: "); }
   std::string notes_of_run(const std::string& frame) const {
-    const Result result = gloam({"run", "indirect", frame, "-o", path("out.exr"), "--radius", "0.5"});
+    const Result result = gloam(
+        {"run", "indirect", frame, "-o", path("out.exr"), "--radius", "0.5", "--outputs", "indirect,indirect_raw"});
     EXPECT_EQ(result.status, 0) << result.err;
     return lines(result.err, "note: ");
   }

@@ -64,9 +64,10 @@ TEST_F(CliOnly, CountsBelow0AreWanted) {
 
 /// An image this small is measured everywhere: the share is that of all pixels whose AO changes.
 TEST_F(CliOnly, WhatAnOutlineMaskMissesIsTold) {
-  ASSERT_EQ(run({"--radius", "0.5"}).status, 0);
+  ASSERT_EQ(run({"--radius", "0.5", "--float"}).status, 0);
   const Frame whole = FrameFile(path("ao.exr"), {}).read({"ao"});
-  const Result result = run({"--only", "outline-mask", "--radius", "0.5", "--set", "least_count=1.5", "--json", "-"});
+  const Result result =
+      run({"--only", "outline-mask", "--radius", "0.5", "--set", "least_count=1.5", "--float", "--json", "-"});
   ASSERT_EQ(result.status, 0) << result.err;
   const Frame masked = FrameFile(path("ao.exr"), {}).read({"ao"});
   int missed = 0;
@@ -105,7 +106,7 @@ TEST_F(CliOnly, APlaneOfTheFileIsAMask) {
 }
 
 TEST_F(CliOnly, TheMaskItselfIsAnEstimateThatTheFilterSmooths) {
-  ASSERT_EQ(run({"--occlusion", "0.25"}, "outline-ao").status, 0);
+  ASSERT_EQ(run({"--occlusion", "0.25", "--outputs", "ao,ao_raw"}, "outline-ao").status, 0);
   FrameFile file(path("ao.exr"), {});
   const Frame out = file.read({"ao", "ao_raw"});
   const Channel& raw = out.views[0].planes.at("ao_raw").channels[0];

@@ -107,7 +107,8 @@ TEST_F(TruthOfEyes, OneEyeIsEnoughAndIsSaid) {
     EXPECT_NE(result.err.find("errors are of " + eye + " alone"), std::string::npos) << result.err;
     const std::string preset = result.json().at("preset"), resolution = result.json().at("resolution");
     ASSERT_EQ(gloam({"run", "stereo-gtao", file("pair.exr"), "-o", file("ao.exr"), "--preset",
-                     preset.substr(0, preset.find(' ')), "--resolution", resolution, "--radius", "0.5"})
+                     preset.substr(0, preset.find(' ')), "--resolution", resolution, "--radius", "0.5", "--float",
+                     "--keep-depth"})
                   .status,
               0);
     const Json compared = gloam({"compare", file("ao.exr"), file("truth_" + eye + ".exr"), "--json", "-"}).json();

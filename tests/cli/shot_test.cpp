@@ -34,6 +34,7 @@ TEST_F(Shot, EachFrameHasTheBitsOfARunOnItAlone) {
     for (const int number : {1, 2, 5}) {
       arguments = {"run", way.technique, file(numbered("shot", number)), "-o", file("one.exr")};
       arguments.insert(arguments.end(), way.of_both.begin(), way.of_both.end());
+      arguments.insert(arguments.end(), way.of_shot.begin(), way.of_shot.end());
       arguments.insert(arguments.end(), way.of_frame.begin(), way.of_frame.end());
       const Result one = gloam(arguments);
       ASSERT_EQ(one.status, 0) << one.err;
@@ -51,7 +52,7 @@ TEST_F(Shot, WritesTheFirstOutputAsHalf) {
   make_shot({1, 2});
   ASSERT_EQ(run().status, 0);
   const FrameFile file(path("ao.0001.exr"), {});
-  EXPECT_EQ(file.all_channels(), std::vector<std::string>{"AO"});
+  EXPECT_EQ(file.all_channels(), (std::vector<std::string>{"AO", "Y"}));
   EXPECT_EQ(file.planes()[0].channels[0].type, "half");
   ASSERT_EQ(run({"--float"}).status, 0);
   EXPECT_EQ(FrameFile(path("ao.0001.exr"), {}).planes()[0].channels[0].type, "float");

@@ -167,7 +167,8 @@ TEST_F(Temporal, SaysWhereAHistoryIsOfNoUse) {
   EXPECT_NE(cut.find("frame 3: shows next to nothing that the frame before showed"), std::string::npos) << cut;
   EXPECT_NE(cut.find("frame 4: shows next to nothing"), std::string::npos) << cut;
   EXPECT_EQ(cut.find("frame 2"), std::string::npos) << cut;
-  const Result other = gloam({"run", "gtao", path("shot.0003.exr"), "-o", path("r.exr"), "--radius", "0.5"});
+  const Result other =
+      gloam({"run", "gtao", path("shot.0003.exr"), "-o", path("r.exr"), "--radius", "0.5", "--temporal"});
   ASSERT_EQ(other.status, 0) << other.err;
   const Result after =
       gloam({"run", "gtao", path("shot.0002.exr"), "-o", path("s.exr"), "--radius", "0.5", "--history", path("r.exr")});

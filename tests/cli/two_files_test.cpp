@@ -43,7 +43,7 @@ class TwoFiles : public Cli {
   }
 
   Result run(const std::string& technique, const Arguments& frame, const std::string& out) const {
-    Arguments all = {"run", technique};
+    Arguments all = {"run", technique, "--keep-depth"};
     all.insert(all.end(), frame.begin(), frame.end());
     // The radius is given, since one of the files may state another one than the frame would get.
     all.insert(all.end(), {"-o", file(out), "--radius", "0.5", "--json", "-"});

@@ -17,7 +17,7 @@ class WholePicture : public ShotTest {
     return FrameFile(path(name), {.as_stored = true}).read(planes);
   }
   Result automatic(const Arguments& more) const {
-    Arguments all = {"auto", file("f.exr"), "-o", file("out.exr"), "--mask", "never"};
+    Arguments all = {"auto", file("f.exr"), "-o", file("out.exr"), "--mask", "never", "--float", "--keep-depth"};
     all.insert(all.end(), more.begin(), more.end());
     return gloam(all);
   }

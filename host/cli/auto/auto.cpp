@@ -14,6 +14,7 @@
 #include "gloam/error.h"
 #include "gloam/visualise.h"
 #include "shot/auto_step.h"
+#include "shot/outputs.h"
 
 namespace gloam::cli {
 namespace {
@@ -22,7 +23,7 @@ void run_on_one_frame(const AutoCommand& flags) {
   RunOptions options = flags.run_flags.run_options();
   // Times to compare must not include what a device does only once.
   if (flags.measure) options.repeat = std::max(options.repeat, 3);
-  const WriteOptions writing{flags.half, flags.compression};
+  const WriteOptions writing{!flags.shot.as_float, flags.compression, {}, true};
   std::vector<NamedPath> inputs = flags.frame.inputs();
   inputs.emplace_back("--camera", flags.frame_flags.camera);
   check_paths(inputs, {{"-o", flags.out},
@@ -35,7 +36,8 @@ void run_on_one_frame(const AutoCommand& flags) {
   std::vector<std::string> notes_on_light;
   const AutoPurpose purpose{explains, flags.goal || !flags.composite.path.empty(),
                             compose_options(flags.composite.light, files, notes_on_light)};
-  const PlanRequest asked = flags.technique_flags.request({});
+  PlanRequest asked = flags.technique_flags.request({});
+  asked.only_filtered = true;
   AutoFrame planned = planned_auto(std::move(files), asked, purpose);
   check_goal(flags.goal, planned);
   check_has_depth(planned, flags.out);
@@ -82,7 +84,11 @@ void run_on_one_frame(const AutoCommand& flags) {
     written.push_back(flags.composite.path);
   }
   if (!flags.out.empty()) {
-    for (View& view : result.frame.views) view.planes["depth"] = std::move(frame.view(view.name).planes.at("depth"));
+    // Where nothing is called for, a frame with a plane is written all the same.
+    const bool keeps_depth = flags.shot.keep_depth || result.frame.views.front().planes.empty();
+    for (View& view : result.frame.views)
+      if (keeps_depth) view.planes["depth"] = std::move(frame.view(view.name).planes.at("depth"));
+    name_frame(result.frame, flags.frame.frame, flags.out);
     write_frame(flags.out, result.frame, writing);
   }
   if (result.spent)
@@ -147,7 +153,7 @@ void add_auto(CLI::App& app) {
   add_number(*command, "--error", flags->goal.error, {1e-9, 1e9},
              "RMS error of the picture (--composite): effects, presets and resolutions are chosen for the least time")
       ->excludes(budget);
-  CLI::Option* half = command->add_flag("--half", flags->half, "write results as half instead of float");
+  CLI::Option* half = command->add_flag("--half", flags->half, "write results as half, as is done without this flag");
   add_compression(*command, flags->compression);
   flags->technique_flags.add_to(*command, false);
   flags->run_flags.add_to(*command);

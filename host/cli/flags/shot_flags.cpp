@@ -40,7 +40,8 @@ void add_missing_without_hold(CLI::App& app, FrameChoice& choice) {
 }
 
 void add_resume(CLI::App& app, bool& resume) {
-  app.add_flag("--resume", resume, "leave frames alone that are whole and were made in the same way")->group(shots_heading);
+  app.add_flag("--resume", resume, "leave frames alone that are whole and were made in the same way")
+      ->group(shots_heading);
 }
 
 void ShotFlags::add_to(CLI::App& app, bool divides) {
@@ -52,19 +53,17 @@ void ShotFlags::add_to(CLI::App& app, bool divides) {
            "most memory for a shot: it decides how many frames are worked on at once")
       ->check(accepted_by(parse_memory, "--memory"));
   if (divides) add_chunks(app, *this);
-  app.add_flag("--keep-depth", keep_depth, "also write a shot's depth, and of two eyes normals");
-  app.add_flag("--float", as_float, "write the AO of a shot and of --into as float instead of half");
+  app.add_flag("--keep-depth", keep_depth, "also write the frame's depth, and of two eyes normals");
+  app.add_flag("--float", as_float, "write AO and the like as float instead of half");
 }
 
-std::string ShotFlags::any(bool with_float) const {
+std::string ShotFlags::any() const {
   if (choice.frames) return "--frames";
   if (choice.missing) return "--missing";
   if (resume) return "--resume";
   if (!memory.empty()) return "--memory";
   if (chunks > 0) return "--chunks";
-  if (warm_up > 0) return "--warm-up";
-  if (keep_depth) return "--keep-depth";
-  return as_float && with_float ? "--float" : "";
+  return warm_up > 0 ? "--warm-up" : "";
 }
 
 }  // namespace gloam::cli

@@ -18,8 +18,8 @@ struct ShotFlags {
   int warm_up = 0;  ///< frames that are not written
   /// `divides`: with --chunks, --print and --warm-up.
   void add_to(CLI::App& app, bool divides = true);
-  /// The first flag given that only a shot has; empty if there is none. `with_float`: --float is one of them.
-  std::string any(bool with_float = true) const;
+  /// The first flag given that only a shot has; empty if there is none.
+  std::string any() const;
 };
 
 /// Adds --frames.

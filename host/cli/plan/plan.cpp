@@ -1,12 +1,15 @@
 // gloam plan OUTPUT[,OUTPUT] FRAME.exr: what would be read, compiled and run. Needs no device.
+#include <algorithm>
 #include <memory>
 
 #include "base/memory.h"
 #include "cli/flags/memory.h"
 #include "cli/flags/options.h"
 #include "cli/flags/radius.h"
+#include "cli/process/words.h"
 #include "run/checks.h"
 #include "sequence/plan_files.h"
+#include "technique/default_technique.h"
 
 namespace gloam::cli {
 namespace {
@@ -33,6 +36,10 @@ std::optional<RadiusReport> radius_of_depth(PlanRequest& request, Plan& plan, Fr
   return report_on(radius, frame, plan);
 }
 
+bool goes_on_by_itself(const std::string& output) {
+  return names_technique(output) && accumulates_by_itself(find_technique(technique_for(output)));
+}
+
 }  // namespace
 
 void add_plan(CLI::App& app) {
@@ -55,11 +62,14 @@ void add_plan(CLI::App& app) {
       "Examples:\n  gloam plan ao frame.exr\n  gloam plan normals,hbao+ frame.exr --json -\n"
       "  gloam plan multiview pair_L.exr pair_R.exr\n  gloam plan gtao pair.exr --eyes both");
   command->callback([flags] {
+    check_order("plan", flags->outputs, flags->frame.frame);
     check_paths(flags->frame.inputs(), {{"--json", flags->json.file()}});
     std::vector<std::string> outputs = split_list(flags->outputs, "OUTPUT");
     if (flags->technique.variant.any())
       for (std::string& name : outputs) name = variant_name(name, flags->technique.variant);
     PlanRequest request = flags->technique.request(outputs);
+    request.only_filtered =
+        !flags->technique.temporal && std::none_of(outputs.begin(), outputs.end(), goes_on_by_itself);
     ReadOptions options = flags->frame_flags.read_options();
     options.only_looks = true;
     FrameFiles files = flags->frame.open(options);

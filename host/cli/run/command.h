@@ -13,6 +13,7 @@ namespace gloam::cli {
 struct RunCommand {
   std::string technique, out, into, outputs, picture, compression = "zip";
   bool bare = false, half = false;
+  bool is_out_made = false;           ///< `out` was made of the frame's name
   std::string given;                  ///< flags that decide what is written, as text
   std::vector<std::string> repeated;  ///< words for a chunk of a shot
   FrameArguments frame;
@@ -23,6 +24,9 @@ struct RunCommand {
   CompositeFlags composite;
   JsonFlag json;
 };
+
+/// Whether each frame goes on from the one before.
+bool is_temporal(const RunCommand& flags);
 
 /// Runs, writes and prints. `request`: of the command's technique.
 void run_on_frame(const RunCommand& flags, const PlanRequest& request);

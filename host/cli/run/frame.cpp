@@ -185,6 +185,12 @@ void print_result(const RunCommand& flags, const Plan& plan, const RunResult& re
     fmt::print("wrote {} (colour with {})\n", printable(flags.composite.path), composited_plane(plan.outputs));
 }
 
+/// To people who named no file, and so perhaps do not know the other commands.
+void print_what_next(const RunCommand& flags) {
+  fmt::print("gloam view {0} {1} shows both; gloam compare {1} TRUTH.exr measures it; gloam {2} --help has more\n",
+             printable(flags.frame.frame), printable(flags.out), flags.technique);
+}
+
 }  // namespace
 
 void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
@@ -198,14 +204,15 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   std::vector<NamedPath> files_written = named(outputs);
   files_written.insert(files_written.end(), {{"--picture", flags.picture}, {"--json", flags.json.file()}});
   check_paths(inputs, files_written);
-  const bool carries_depth = !flags.bare && !flags.out.empty();
+  // The next frame of a sequence takes over what this one knows.
+  const bool carries_depth = !flags.bare && !flags.out.empty() && (flags.shot.keep_depth || is_temporal(flags));
   FrameFiles opened = flags.frame.open(flags.frame_flags.read_options());
   check_pictures({"--picture", flags.picture}, opened.views());
   const PlanRequest over_time = going_on(request, opened, flags.technique_flags.temporal);
   PlannedFrame planned = planned_frame(std::move(opened), over_time, carries_depth);
   check_history(planned.plan, planned.files);
   if (flags.out.empty()) keep_first_output(planned, carries_depth);
-  const OutputSettings writing = output_settings(flags, flags.half, planned.request, planned.plan);
+  const OutputSettings writing = output_settings(flags, planned.request, planned.plan);
   if (outputs.has_composite())
     planned.colour.emplace(open_colour(flags.frame.files(), flags.frame_flags.read_options()));
   FrameFiles& files = planned.files;
@@ -262,6 +269,7 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   print_times(result, device.info(), watch);
   print_result(flags, plan, result, missed, writing.copied);
   print_written(pictures);
+  if (flags.is_out_made) print_what_next(flags);
 }
 
 }  // namespace gloam::cli

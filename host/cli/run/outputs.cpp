@@ -1,6 +1,9 @@
 #include "cli/run/outputs.h"
 
+#include <filesystem>
+
 #include "base/file_identity.h"
+#include "base/file_ledger.h"
 #include "gloam/error.h"
 
 namespace gloam::cli {
@@ -30,7 +33,58 @@ std::string plane_to_composite(const CompositeFlags& flags, const Plan& plan) {
   return plane;
 }
 
+/// The name of a result that lies beside its frame: frame_ao.exr of frame.exr, shot_ao.####.exr of shot.####.exr.
+std::string name_beside(const std::string& frame, const std::string& technique) {
+  const std::filesystem::path path(frame);
+  const std::string name = path.filename().string();
+  if (!FramePattern::is_pattern(frame))
+    return path.parent_path() / fmt::format("{}_{}.exr", path.stem().string(), technique);
+  const size_t number = name.find_first_of("#%");
+  std::string head = name.substr(0, number), rest = name.substr(number);
+  if (head.empty()) return path.parent_path() / fmt::format("{}.{}", technique, rest);
+  if (std::string(".-_").find(head.back()) != std::string::npos) {
+    rest.insert(0, 1, head.back());
+    head.pop_back();
+  }
+  return path.parent_path() / fmt::format("{}_{}{}", head, technique, rest);
+}
+
+/// Whether a file was written by `gloam run` or `auto`.
+bool is_result(const std::filesystem::path& path) {
+  const LooksAtFiles looks;
+  try {
+    return !FrameFile(path, {.only_looks = true, .as_stored = true}).text_attribute("gloamRun").empty();
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+/// Throws Error if a file of a name that nobody gave would be lost.
+void check_nothing_lost(const std::string& out) {
+  std::vector<std::filesystem::path> files = {out};
+  if (FramePattern::is_pattern(out)) {
+    const FramePattern pattern(out, "-o");
+    files.clear();
+    for (const int frame : pattern.frames_there()) files.push_back(pattern.path_of(frame));
+  }
+  for (const std::filesystem::path& file : files)
+    if (std::filesystem::exists(file) && !is_result(file))
+      throw Error("{} is there, and is no result of gloam's; name the result with -o OUT.exr", file.string());
+}
+
 }  // namespace
+
+void settle_outputs(RunCommand& flags) {
+  if (std::filesystem::path(flags.out).extension() == ".png" && !flags.frame.has_pattern()) {
+    if (!flags.picture.empty())
+      throw UsageError("-o {}: is a picture, and --picture {} another; leave one out", flags.out, flags.picture);
+    flags.picture.swap(flags.out);
+  }
+  if (!flags.out.empty() || !flags.into.empty() || !flags.composite.path.empty() || !flags.picture.empty()) return;
+  flags.out = name_beside(flags.frame.frame, flags.technique);
+  flags.is_out_made = true;
+  check_nothing_lost(flags.out);
+}
 
 std::vector<NamedPath> named(const FrameOutputs& outputs) {
   std::vector<NamedPath> asked_for;
@@ -53,8 +107,6 @@ FrameOutputs outputs_of(const RunCommand& flags) {
 }
 
 void check(const FrameOutputs& outputs, const RunCommand& flags) {
-  if (named(outputs).empty())
-    throw UsageError("run: nothing is to be written; give --output OUT.exr, --into COPY.exr or --composite OUT.exr");
   for (const auto& [flag, path] : named(outputs)) check_frame_name(path, flag);
   check_of_files_written(outputs, flags);
   if (!outputs.into.empty() && !flags.frame.other_eye.empty())
@@ -62,8 +114,11 @@ void check(const FrameOutputs& outputs, const RunCommand& flags) {
                      outputs.into);
 }
 
-OutputSettings output_settings(const RunCommand& flags, bool half, const PlanRequest& request, const Plan& plan) {
-  OutputSettings settings{{half, flags.compression}, {!flags.shot.as_float, flags.compression}, {}};
+OutputSettings output_settings(const RunCommand& flags, const PlanRequest& request, const Plan& plan) {
+  // A history keeps its digits.
+  const bool is_history = is_temporal(flags) && !flags.frame.has_pattern();
+  const bool half = flags.half || !(flags.shot.as_float || is_history);
+  OutputSettings settings{{half, flags.compression, {}, true}, {half, flags.compression}, {}};
   if (!flags.shot.as_float) settings.copy.half_planes = {"reflection"};
   settings.copied = planes_of_file(request, plan);
   if (!flags.composite.path.empty()) settings.composited = plane_to_composite(flags.composite, plan);

@@ -10,6 +10,10 @@
 
 namespace gloam::cli {
 
+/// Decides what is written: -o OUT.png is --picture OUT.png, and where nothing is said, the result lies beside the frame,
+/// frame_ao.exr of frame.exr. Throws UsageError for two pictures, and Error where a file of that name is not gloam's.
+void settle_outputs(RunCommand& flags);
+
 FrameOutputs outputs_of(const RunCommand& flags);
 
 /// Those asked for, with their flags.
@@ -20,8 +24,8 @@ std::vector<std::string> paths_of(const FrameOutputs& outputs);
 /// that is not written.
 void check(const FrameOutputs& outputs, const RunCommand& flags);
 
-/// `half`: AO of OUT.exr as half. `plan`: of the frame. Throws UsageError for a composite of planes that are not laid over colour.
-OutputSettings output_settings(const RunCommand& flags, bool half, const PlanRequest& request, const Plan& plan);
+/// `plan`: of the frame. Throws UsageError for a composite of planes that are not laid over colour.
+OutputSettings output_settings(const RunCommand& flags, const PlanRequest& request, const Plan& plan);
 
 /// Appends the patterns with their flags. Throws UsageError for names that are not patterns.
 ShotOutputs outputs_of_shot(const FrameOutputs& outputs, const std::string& shot, NamedPatterns& patterns);

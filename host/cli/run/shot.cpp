@@ -10,11 +10,6 @@
 namespace gloam::cli {
 namespace {
 
-/// Whether each frame goes on from the one before.
-bool is_temporal(const RunCommand& flags) {
-  return flags.technique_flags.temporal || accumulates_by_itself(find_technique(flags.technique));
-}
-
 /// Throws UsageError for a technique, flags and names that do not go with a shot.
 void check_flags(const RunCommand& flags) {
   const FrameArguments& frame = flags.frame;
@@ -80,7 +75,7 @@ void run_on_shot(const RunCommand& flags, const PlanRequest& alone) {
   const SequenceFiles shot = shot_files(flags.frame, flags.frame_flags, flags.shot.choice);
   check_outputs(patterns, shot, {{"--json", flags.json.file()}});
   PlannedFrame first = first_planned(shot, settings);
-  settings.writing = output_settings(flags, !flags.shot.as_float, first.request, first.plan);
+  settings.writing = output_settings(flags, first.request, first.plan);
   if (flags.shot.chunks > 0) return print_chunks(flags, shot);
   const size_t frames = shot.frames().size(), warm_up = size_t(flags.shot.warm_up);
   if (warm_up >= frames)

@@ -183,11 +183,15 @@ class FrameFile {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Attribute of a result: the frame's file, a path from the result's folder.
+inline constexpr const char* frame_attribute = "gloamFrame";
+
 /// Options for writing a frame.
 struct WriteOptions {
   bool half = false;                     ///< AO and other bounded planes as half; depth stays float
   std::string compression = "zip";       ///< one of `compressions`
   std::vector<std::string> half_planes;  ///< these as half too, whatever they hold
+  bool shows_result = false;             ///< a result of one value is also luminance, Y, for programs that know no channel of gloam's
 };
 
 /// Names of the lossless compressions that frames can be written with.

@@ -1,0 +1,83 @@
+#include "cli/process/words.h"
+
+#include <filesystem>
+
+#include "cli/list/techniques.h"
+#include "gloam/error.h"
+#include "gloam/frame_pattern.h"
+#include "technique/default_technique.h"
+
+namespace gloam::cli {
+namespace {
+
+/// A word as it is typed in a shell.
+std::string typed(const std::string& word) {
+  const bool is_plain = word.find_first_of(" #*?'\"$&;()<>|`\\") == std::string::npos;
+  return is_plain ? word : "'" + word + "'";
+}
+
+std::vector<std::string> commands_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App* each) { return !each->get_group().empty(); }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+}  // namespace
+
+bool names_technique(const std::string& word) { return contains(technique_names(), technique_for(word)); }
+
+bool names_frame(const std::string& word) {
+  std::error_code failed;
+  const std::filesystem::path path(word);
+  return path.extension() == ".exr" || FramePattern::is_pattern(word) || std::filesystem::is_regular_file(path, failed);
+}
+
+std::vector<std::string> completed_words(std::vector<std::string> words) {
+  if (words.empty()) return words;
+  if (words.front() == "help") {
+    words.erase(words.begin());
+    words.push_back("--help");
+  }
+  if (names_technique(words.front())) words.insert(words.begin(), "run");
+  return words;
+}
+
+std::string meant_by_first_word(const CLI::App& app, const std::string& word) {
+  if (names_frame(word))
+    return fmt::format(
+        "'{}' is a file, and a command comes first: gloam ao {} computes ambient occlusion, gloam info {} tells what "
+        "it holds",
+        word, typed(word), typed(word));
+  if (word.starts_with("-"))
+    return fmt::format("no flag '{}'{} (gloam --help)", word, suggestion(word, {"--help", "--version"}));
+  std::vector<std::string> names = commands_of(app);
+  const std::string commands = enumerate(names);
+  names.push_back("ao");
+  for (const std::string& name : technique_names()) names.push_back(name);
+  return fmt::format(
+      "no command '{}'{}; there are {}, and each technique is one too: gloam ao frame.exr (gloam --help)", word,
+      suggestion(word, names), commands);
+}
+
+std::string meant_without_technique(const CLI::App& command) {
+  const std::string name = command.get_name();
+  if (name != "run" && name != "plan") return "";
+  const std::vector<const CLI::Option*> places =
+      command.get_options([](const CLI::Option* o) { return o->get_positional(); });
+  if (places.size() < 2 || places[0]->count() != 1 || places[1]->count() != 0) return "";
+  const std::string frame = places[0]->results().front();
+  if (!names_frame(frame) || names_technique(frame)) return "";
+  return fmt::format("{}: '{}' is a frame, and what is computed comes first: gloam {} ao {}", name, frame, name,
+                     typed(frame));
+}
+
+void check_order(const std::string& command, const std::string& technique, const std::string& frame) {
+  if (names_technique(technique) || !names_frame(technique)) return;
+  const std::string meant =
+      names_technique(frame) ? fmt::format("{} {}", frame, typed(technique)) : "ao " + typed(technique);
+  throw UsageError("{}: '{}' is a frame, and what is computed comes first: gloam {} {}", command, technique, command,
+                   meant);
+}
+
+}  // namespace gloam::cli
