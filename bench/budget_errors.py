@@ -79,7 +79,7 @@ class Scene:
     def run(self, technique, plane, preset, resolution):
         """The plane at surfaces, and the median time of seven runs, milliseconds on the device."""
         out = self.folder / f"{self.name}_result.exr"
-        done = json.loads(call(self.gloam, "run", technique, self.frame, "-o", out, "--preset", preset, "--resolution", resolution,
+        done = json.loads(call(self.gloam, "run", technique, self.frame, "-o", out, "--float", "--preset", preset, "--resolution", resolution,
                                "--outputs", plane, "--repeat", 7, "--json", "-", *self.light(technique)))
         return self.at_surfaces(gloam.read(out, planes=[plane])[plane]), done["total_ms"]["median"]
 

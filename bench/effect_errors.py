@@ -90,7 +90,7 @@ class Files:
         return path
 
     def made(self, technique, *settings):
-        self.call("run", technique, self.frame(), "-o", self.path("_result"), *settings)
+        self.call("run", technique, self.frame(), "-o", self.path("_result"), "--float", *settings)
         return self.path("_result")
 
     def figures(self, command, channels=""):

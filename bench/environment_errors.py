@@ -91,7 +91,7 @@ def light_errors(gloam, folder, scene, size, samples):
         if not truth.exists():
             call(gloam, "reference", "environment", frame, "-o", truth, "--environment", light, "--samples", samples)
         for name, settings in LIGHT:
-            call(gloam, "run", "environment", frame, "-o", result, "--environment", light, *settings)
+            call(gloam, "run", "environment", frame, "-o", result, "--float", "--environment", light, *settings)
             errors[name].append(figures(gloam, result, truth, "environment")["rmse"])
     return {name: f"{under_sun:.4f} ({under_sky:.4f})" for name, (under_sun, under_sky) in errors.items()}
 
@@ -103,7 +103,7 @@ def reflection_errors(gloam, folder, scene, size, samples):
         call(gloam, "reference", "reflection", frame, "-o", truth, "--samples", samples)
 
     def error(source, *settings):
-        call(gloam, "run", "sssr", source, "-o", result, *settings)
+        call(gloam, "run", "sssr", source, "-o", result, "--float", *settings)
         found = figures(gloam, result, truth, "reflection")
         return f"{found['rmse']:.4f} ({found['ssim']:.3f})"
 

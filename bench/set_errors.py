@@ -38,7 +38,7 @@ def call(*arguments):
 
 def error_of(folder, item, truth, technique, preset, output):
     reach = {"contact": ["--set", f"length={item['radius']!r}"], "reflection": []}
-    call("run", technique, f"{folder}/{item['files'][0]['file']}", "-o", output, "-q", "--preset", preset,
+    call("run", technique, f"{folder}/{item['files'][0]['file']}", "-o", output, "--float", "-q", "--preset", preset,
          *reach.get(truth["effect"], ["--radius", repr(item["radius"])]))
     return json.loads(call("compare", output, f"{folder}/{truth['files'][0]['file']}", "-q", "--json", "-"))["rmse"]
 

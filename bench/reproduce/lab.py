@@ -140,7 +140,7 @@ class Lab:
 
     def result(self, technique, frame, *flags):
         name = os.path.basename(frame).replace("frame", "result")
-        return self.made(name, "run", technique, frame, "-o", OUT, *flags)
+        return self.made(name, "run", technique, frame, "-o", OUT, "--float", "--keep-depth", *flags)
 
     def compared(self, test, truth, *flags):
         return self.figures("compare", test, truth, *flags)

@@ -7,7 +7,7 @@ SHARED = {"minutes": 1, "shares": "eighty modules"}
 
 def modules(lab):
     frame = lab.frame("statue", "640x480", "--display", lab.root / "data/displays/eighty.json")
-    return lab.made("modules_ao.exr", "run", "lightfield-ssao", frame, "-o", OUT, "--radius", 0.4, "--set", "reuse=on")
+    return lab.made("modules_ao.exr", "run", "lightfield-ssao", frame, "-o", OUT, "--keep-depth", "--radius", 0.4, "--set", "reuse=on")
 
 
 @picture("docs/light-field.md", "docs/images/light_field_sheet.png", **SHARED)

@@ -174,6 +174,7 @@ int run_command(int argc, char** argv) {
       "gloam: ambient occlusion and other image-space effects on captured G-buffers, and how near to truth they are."};
   app.footer(
       "Examples:\n"
+      "  gloam ao frame.exr\n"
       "  gloam info frame.exr\n"
       "  gloam run hbao+ frame.exr -o ao.exr --radius 0.3\n"
       "  gloam compare ao.exr truth.exr -o difference.png\n"
@@ -184,7 +185,8 @@ int run_command(int argc, char** argv) {
       "  gloam view frame.exr ao.exr\n"
       "  gloam set make gloam-1\n"
       "  gloam stress hbao+\n"
-      "gloam COMMAND --help shows a command's flags.");
+      "gloam COMMAND --help shows a command's flags. Every technique is a command too: gloam ao frame.exr is\n"
+      "gloam run ao frame.exr -o frame_ao.exr.");
   app.set_version_flag("-V,--version", "gloam " GLOAM_VERSION);
   app.require_subcommand(1);
   app.name("gloam");

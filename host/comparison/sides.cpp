@@ -213,6 +213,9 @@ std::string frame_of_result(const FrameFile& test, const FrameFile& reference, c
   const std::filesystem::path path = test.path().parent_path() / named;
   std::error_code unknown;
   if (named.empty() || !std::filesystem::is_regular_file(path, unknown)) return "";
+  // Another frame of that name is most likely of another size.
+  if (std::to_string(std::filesystem::file_size(path, unknown)) != test.text_attribute(frame_bytes_attribute))
+    return "";
   try {
     const FrameFile frame(path, options_beside(options, path));
     const std::vector<std::string> views = frame.views();

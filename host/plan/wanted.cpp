@@ -176,8 +176,9 @@ Wanted wanted_by(const PlanRequest& request, const std::vector<std::string>& ava
                      suggestion(plane, wanted.outputs), enumerate(wanted.outputs));
   }
   if (request.only_filtered && request.only_outputs.empty())
-    std::erase_if(wanted.outputs, [outputs = wanted.outputs](const std::string& plane) {
-      return plane.ends_with("_raw") && contains(outputs, plane.substr(0, plane.size() - 4));
+    std::erase_if(wanted.outputs, [&, outputs = wanted.outputs](const std::string& plane) {
+      return plane.ends_with("_raw") && contains(outputs, plane.substr(0, plane.size() - 4)) &&
+             !contains(request.outputs, plane) && !contains(request.with, plane);
     });
   if (!request.only_outputs.empty()) {
     wanted.outputs.clear();

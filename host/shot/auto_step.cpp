@@ -7,7 +7,6 @@
 #include "gloam/option.h"
 #include "sequence/chunks.h"
 #include "shot/memory.h"
-#include "shot/outputs.h"
 
 namespace gloam {
 
@@ -116,10 +115,7 @@ class AutoStep::Work : public FrameWork {
   void write() override {
     const AutoShotSettings& settings = step_.settings_;
     const int number = turn.frame.number;
-    if (settings.output) {
-      name_frame(result_, step_.files_.paths_of(turn.frame).front(), settings.output->path_of(number).string());
-      write_frame(settings.output->path_of(number), result_, settings.writing);
-    }
+    if (settings.output) write_frame(settings.output->path_of(number), result_, settings.writing);
     if (composite_)
       write_composite(settings.composite_output->path_of(number), *composite_, settings.writing.compression);
   }

@@ -55,19 +55,27 @@ OutputSources read_sources(PlannedFrame& planned) {
   return sources;
 }
 
-void name_frame(Frame& result, const std::string& frame, const std::string& out) {
+std::string frame_seen_from(const std::string& frame, const std::string& out) {
   namespace fs = std::filesystem;
+  return fs::absolute(frame)
+      .lexically_normal()
+      .lexically_proximate(fs::absolute(out).lexically_normal().parent_path())
+      .generic_string();
+}
+
+void name_frame(Frame& result, const std::string& frame, const std::string& out) {
   std::error_code unknown;
-  const fs::path path = fs::proximate(fs::absolute(frame), fs::absolute(out).parent_path(), unknown);
-  if (!unknown) result.attributes[frame_attribute] = path.generic_string();
+  const auto bytes = std::filesystem::file_size(frame, unknown);
+  if (unknown) return;
+  result.attributes[frame_attribute] = frame_seen_from(frame, out);
+  result.attributes[frame_bytes_attribute] = std::to_string(bytes);
 }
 
 std::vector<std::string> write_outputs(const FrameOutputs& outputs, OutputSources& sources, Frame& result,
                                        const OutputSettings& settings) {
   if (!outputs.out.empty()) {
-    name_frame(result, sources.file, outputs.out);
+    if (settings.names_frame) name_frame(result, sources.file, outputs.out);
     write_frame(outputs.out, result, settings.out);
-    result.attributes.erase(frame_attribute);
   }
   const WriteOptions as_colour{false, settings.out.compression, sources.half_planes};
   if (outputs.has_composite()) make_composite(sources, result, settings);

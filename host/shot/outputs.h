@@ -33,6 +33,7 @@ struct OutputSettings {
   std::string composited;           ///< the plane of a composite; empty if there is none
   Compositing compositing;
   bool has_cameras = true;
+  bool names_frame = false;  ///< OUT.exr; only where the frame was read without flags that change its depth
 };
 
 /// The planes asked for, else what a shot's file holds: the first output, with the extras.
@@ -52,8 +53,10 @@ struct OutputSources {
 /// Reads the colour, if a composite is asked for.
 OutputSources read_sources(PlannedFrame& planned);
 
-/// Leaves the name of the frame in a result that is written to `out`, as a path from there (attribute `gloamFrame`): `compare` asks the frame
-/// for the background.
+/// The frame's file as a path from the folder of `out`.
+std::string frame_seen_from(const std::string& frame, const std::string& out);
+/// Leaves the name and the size of the frame's file in a result that is written to `out` (`gloamFrame`, `gloamFrameBytes`): `compare` asks the
+/// frame for the background.
 void name_frame(Frame& result, const std::string& frame, const std::string& out);
 
 /// Writes the files. Afterwards the result has only the planes of the copy, if one is asked for. Returns notes.

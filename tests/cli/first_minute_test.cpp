@@ -1,5 +1,6 @@
 // The first commands of a person who has a frame and has read nothing: each does what was meant, or names what does.
 #include "cli/gloam_process.h"
+#include "support/stress.h"
 
 namespace gloam::test::first_minute_test {
 namespace {
@@ -30,7 +31,9 @@ TEST_F(FirstMinute, ATechniqueIsACommand) {
   const Result ao = gloam({"ao", frame}), run = gloam({"run", "ao", frame, "-o", path("other.exr")});
   ASSERT_EQ(ao.status, 0) << ao.err;
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_EQ(slurp(path("frame_ao.exr")).size(), slurp(path("other.exr")).size());
+  const Frame by_word = FrameFile(path("frame_ao.exr"), {}).read({"ao"}),
+              by_run = FrameFile(path("other.exr"), {}).read({"ao"});
+  EXPECT_TRUE(same_bits(by_word, by_run));
   expect_has(ao.out, {"wrote " + path("frame_ao.exr").string(), "gloam view ", "gloam compare ", " --help"});
   EXPECT_EQ(run.out.find("gloam view"), std::string::npos) << "who names a file is told of no other commands";
   ASSERT_EQ(gloam({"hbao+", frame, "--preset", "low", "--radius", "0.3"}).status, 0);
@@ -39,26 +42,71 @@ TEST_F(FirstMinute, ATechniqueIsACommand) {
   EXPECT_EQ(gloam({"ao", frame}).status, 0);
 }
 
-TEST_F(FirstMinute, NoFileIsLostThatGloamHasNotWritten) {
+TEST_F(FirstMinute, NoFileIsLostThatHasThisNameForAnotherReason) {
+  const auto kept = [&](const std::string& why) {
+    const std::string before = slurp(path("frame_gtao.exr"));
+    const Result result = gloam({"gtao", frame});
+    EXPECT_EQ(result.status, 1) << why;
+    expect_has(result.err, {"frame_gtao.exr", "not the result of an earlier call", "-o OUT.exr"});
+    EXPECT_EQ(slurp(path("frame_gtao.exr")), before) << why;
+  };
   fs::copy_file(frame, path("frame_gtao.exr"));
-  const std::string before = slurp(path("frame_gtao.exr"));
-  const Result result = gloam({"gtao", frame});
-  EXPECT_EQ(result.status, 1);
-  expect_has(result.err, {"frame_gtao.exr", "no result of gloam's", "-o OUT.exr"});
-  EXPECT_EQ(slurp(path("frame_gtao.exr")), before);
+  kept("a frame");
+  ASSERT_EQ(gloam({"run", "gtao", frame, "-o", path("frame_gtao.exr"), "--preset", "ultra"}).status, 0);
+  kept("a result that somebody named");
+  fs::create_directory(path("other"));
+  fs::copy_file(frame, path("other/frame.exr"));
+  ASSERT_EQ(gloam({"gtao", path("other/frame.exr")}).status, 0);
+  fs::rename(path("other/frame_gtao.exr"), path("frame_gtao.exr"));
+  EXPECT_EQ(gloam({"gtao", frame}).status, 0) << "by its header, the file is of the frame beside it";
+  ASSERT_EQ(gloam({"run", "gtao", frame, "--into", path("copy.exr")}).status, 0);
+  fs::rename(path("copy.exr"), path("frame_gtao.exr"));
+  kept("a copy of the frame");
 }
 
-TEST_F(FirstMinute, AShotsResultsLieBesideIt) {
+TEST_F(FirstMinute, AShotsResultsAreNamed) {
   fs::copy_file(frame, path("shot.0001.exr"));
-  fs::copy_file(frame, path("shot.0002.exr"));
   const Result result = gloam({"gtao", path("shot.####.exr")});
-  ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_TRUE(fs::exists(path("shot_gtao.0001.exr")));
-  EXPECT_TRUE(fs::exists(path("shot_gtao.0002.exr")));
-  fs::copy_file(frame, path("shot_gtao.0002.exr"), fs::copy_options::overwrite_existing);
-  const Result again = gloam({"gtao", path("shot.%04d.exr")});
-  EXPECT_EQ(again.status, 1);
-  expect_has(again.err, {"shot_gtao.0002.exr", "no result of gloam's"});
+  EXPECT_EQ(result.status, 2);
+  expect_has(result.err, {"give one, such as -o 'gtao.####.exr'"});
+}
+
+// A result has no depth: its frame tells the background.
+TEST_F(FirstMinute, TheBackgroundIsThatOfTheFrame) {
+  const auto pixels = [&](const Arguments& more) {
+    Arguments all = {"compare", path("frame_ao.exr"), path("b.exr"), "--json", "-"};
+    all.insert(all.end(), more.begin(), more.end());
+    const Result result = gloam(all);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return std::pair(result.json()["pixels"].get<int>(), result.err);
+  };
+  ASSERT_EQ(gloam({"ao", frame}).status, 0);
+  ASSERT_EQ(gloam({"gtao", frame, "-o", path("b.exr")}).status, 0);
+  const auto [counted, said] = pixels({});
+  EXPECT_EQ(counted, pixels({"--frame", frame}).first);
+  EXPECT_LT(counted, 480 * 270);
+  expect_has(said, {"frame.exr, which the test was made of"});
+  write_frame(frame, small_frame(480, 270));
+  EXPECT_EQ(pixels({}).first, 480 * 270) << "another frame of that name";
+}
+
+// Programs show what they know: gloam's own channel, AO, they do not.
+TEST_F(FirstMinute, AResultIsShownByProgramsThatKnowNoAO) {
+  ASSERT_EQ(gloam({"ao", frame}).status, 0);
+  FrameFile file(path("frame_ao.exr"), {.as_stored = true, .channels = {{"mask", "Y"}}});
+  EXPECT_EQ(file.all_channels(), (Arguments{"AO", "Y"}));
+  const Frame both = file.read({"ao", "mask"});
+  for (int y = 0; y < both.height(); ++y)
+    for (int x = 0; x < both.width(); ++x)
+      ASSERT_EQ(both.views[0].find("ao")->channels[0].at(x, y), both.views[0].find("mask")->channels[0].at(x, y));
+  ASSERT_EQ(gloam({"capture", "gallery", "-o", path("pair.exr"), "--size", "32x18", "--stereo", "0.065"}).status, 0);
+  ASSERT_EQ(gloam({"gtao", path("pair.exr")}).status, 0);
+  EXPECT_EQ(FrameFile(path("pair_gtao.exr"), {}).all_channels(), (Arguments{"AO", "Y", "right.AO", "right.Y"}));
+}
+
+TEST_F(FirstMinute, PlanesAskedForByNameAreMadeRawToo) {
+  EXPECT_EQ(gloam({"plan", "gtao", frame, "--json", "-"}).json()["outputs"], nlohmann::json({"ao"}));
+  EXPECT_EQ(gloam({"plan", "ao,ao_raw", frame, "--json", "-"}).json()["outputs"], nlohmann::json({"ao", "ao_raw"}));
 }
 
 TEST_F(FirstMinute, PicturesAlone) {

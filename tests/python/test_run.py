@@ -38,8 +38,8 @@ def file(tmp_path_factory, frame):
     ("ao", {"layers": "one", "eyes": "one"}, ["--layers", "one", "--eyes", "one"]),
 ])
 def test_a_frame_gives_what_the_command_gives(technique, keywords, flags, file, frame, command, tmp_path):
-    command("run", technique, file, "-o", tmp_path / "out.exr", *flags)
     result = gloam.run(technique, gloam.read(file), **keywords)
+    command("run", technique, file, "-o", tmp_path / "out.exr", "--float", "--outputs", ",".join(result), *flags)
     assert_same(result, planes_of(tmp_path / "out.exr", result))
     assert_same(gloam.run(technique, file, **keywords), dict(result))
 
@@ -61,7 +61,7 @@ def test_layers_and_eyes_choose_variants(frame):
 
 
 def test_arrays_give_what_the_command_gives(file, command, tmp_path):
-    command("run", "gtao", file, "-o", tmp_path / "out.exr", "--radius", "0.5")
+    command("run", "gtao", file, "-o", tmp_path / "out.exr", "--radius", "0.5", "--float", "--outputs", "ao,ao_raw")
     read = gloam.read(file)  # a header keeps its camera as float: another one gives other last bits
     depth, normal = numpy.array(read["depth"]), numpy.array(read["normal"])
     result = gloam.run("gtao", depth=depth, normal=normal, camera=read.camera, radius=0.5)

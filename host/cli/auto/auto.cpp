@@ -88,7 +88,7 @@ void run_on_one_frame(const AutoCommand& flags) {
     const bool keeps_depth = flags.shot.keep_depth || result.frame.views.front().planes.empty();
     for (View& view : result.frame.views)
       if (keeps_depth) view.planes["depth"] = std::move(frame.view(view.name).planes.at("depth"));
-    name_frame(result.frame, flags.frame.frame, flags.out);
+    if (!flags.frame_flags.changes_depth()) name_frame(result.frame, flags.frame.frame, flags.out);
     write_frame(flags.out, result.frame, writing);
   }
   if (result.spent)

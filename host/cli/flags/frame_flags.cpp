@@ -1,5 +1,6 @@
 #include "cli/flags/frame_flags.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "cli/flags/memory.h"
@@ -65,6 +66,12 @@ void FrameFlags::add_to(CLI::App& app) {
                  "refuse, before anything is decoded, what would take more; default: what is available")
       ->check(accepted_by(parse_memory, "--limit-memory"))  // stays text, for messages; CLI11's sizes know no 1.5G
       ->type_name("4G|512M");
+}
+
+bool FrameFlags::changes_depth() const {
+  return near || far || background || depth != DepthConvention::automatic ||
+         std::any_of(planes.begin(), planes.end(),
+                     [](const std::string& plane) { return plane.starts_with("depth="); });
 }
 
 ReadOptions FrameFlags::read_options() const {

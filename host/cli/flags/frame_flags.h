@@ -26,6 +26,8 @@ struct FrameFlags {
   void add_to(CLI::App& app);
   /// Throws UsageError for malformed planes and views.
   ReadOptions read_options() const;
+  /// Whether they say what the depth is, or where it ends.
+  bool changes_depth() const;
 };
 
 /// The flags given to a command that say how a frame is read.

@@ -68,8 +68,8 @@ void add_plan(CLI::App& app) {
     if (flags->technique.variant.any())
       for (std::string& name : outputs) name = variant_name(name, flags->technique.variant);
     PlanRequest request = flags->technique.request(outputs);
-    request.only_filtered =
-        !flags->technique.temporal && std::none_of(outputs.begin(), outputs.end(), goes_on_by_itself);
+    request.only_filtered = flags->frame.history.empty() && !flags->technique.temporal &&
+                            std::none_of(outputs.begin(), outputs.end(), goes_on_by_itself);
     ReadOptions options = flags->frame_flags.read_options();
     options.only_looks = true;
     FrameFiles files = flags->frame.open(options);

@@ -10,12 +10,6 @@
 namespace gloam::cli {
 namespace {
 
-/// A word as it is typed in a shell.
-std::string typed(const std::string& word) {
-  const bool is_plain = word.find_first_of(" #*?'\"$&;()<>|`\\") == std::string::npos;
-  return is_plain ? word : "'" + word + "'";
-}
-
 std::vector<std::string> commands_of(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App* each) { return !each->get_group().empty(); }))
@@ -25,7 +19,16 @@ std::vector<std::string> commands_of(const CLI::App& app) {
 
 }  // namespace
 
-bool names_technique(const std::string& word) { return contains(technique_names(), technique_for(word)); }
+std::string typed(const std::string& word) {
+  const bool is_plain = word.find_first_of(" #*?'\"$&;()<>|`\\") == std::string::npos;
+  return is_plain ? word : "'" + word + "'";
+}
+
+bool names_technique(const std::string& word) {
+  if (contains(technique_names(), word)) return true;
+  const std::string made_by = technique_for(word);
+  return made_by != word && contains(outputs_of(find_technique(made_by)), word);
+}
 
 bool names_frame(const std::string& word) {
   std::error_code failed;

@@ -17,6 +17,8 @@ void check_of_files_written(const FrameOutputs& outputs, const RunCommand& flags
   };
   if (flags.half && !has_out) refuse("--half", "-o OUT.exr");
   if (flags.shot.keep_depth && !has_out) refuse("--keep-depth", "-o OUT.exr");
+  if (flags.shot.keep_depth && flags.bare)
+    throw UsageError("--keep-depth: --bare leaves the depth out; leave one of them out");
   if (flags.bare && !has_out && outputs.composite.empty()) refuse("--bare", "-o or --composite OUT.exr");
   if (flags.shot.as_float && !has_out && outputs.into.empty()) refuse("--float", "-o OUT.exr or --into COPY.exr");
 }
@@ -33,43 +35,31 @@ std::string plane_to_composite(const CompositeFlags& flags, const Plan& plan) {
   return plane;
 }
 
-/// The name of a result that lies beside its frame: frame_ao.exr of frame.exr, shot_ao.####.exr of shot.####.exr.
-std::string name_beside(const std::string& frame, const std::string& technique) {
-  const std::filesystem::path path(frame);
-  const std::string name = path.filename().string();
-  if (!FramePattern::is_pattern(frame))
-    return path.parent_path() / fmt::format("{}_{}.exr", path.stem().string(), technique);
-  const size_t number = name.find_first_of("#%");
-  std::string head = name.substr(0, number), rest = name.substr(number);
-  if (head.empty()) return path.parent_path() / fmt::format("{}.{}", technique, rest);
-  if (std::string(".-_").find(head.back()) != std::string::npos) {
-    rest.insert(0, 1, head.back());
-    head.pop_back();
-  }
-  return path.parent_path() / fmt::format("{}_{}{}", head, technique, rest);
-}
-
-/// Whether a file was written by `gloam run` or `auto`.
-bool is_result(const std::filesystem::path& path) {
+/// Whether a file is a result that got its name from this very frame, by an earlier call.
+bool is_own_result(const std::filesystem::path& path, const std::string& frame) {
   const LooksAtFiles looks;
   try {
-    return !FrameFile(path, {.only_looks = true, .as_stored = true}).text_attribute("gloamRun").empty();
+    const FrameFile file(path, {.only_looks = true, .as_stored = true});
+    return file.text_attribute(named_by_gloam) == "yes" &&
+           file.text_attribute(frame_attribute) == frame_seen_from(frame, path.string());
   } catch (const Error&) {
     return false;
   }
 }
 
-/// Throws Error if a file of a name that nobody gave would be lost.
-void check_nothing_lost(const std::string& out) {
-  std::vector<std::filesystem::path> files = {out};
-  if (FramePattern::is_pattern(out)) {
-    const FramePattern pattern(out, "-o");
-    files.clear();
-    for (const int frame : pattern.frames_there()) files.push_back(pattern.path_of(frame));
-  }
-  for (const std::filesystem::path& file : files)
-    if (std::filesystem::exists(file) && !is_result(file))
-      throw Error("{} is there, and is no result of gloam's; name the result with -o OUT.exr", file.string());
+/// frame_ao.exr beside frame.exr. Throws UsageError for what has no such place, and Error if a file of that name would be lost.
+std::string name_beside(const FrameArguments& frame, const std::string& technique) {
+  const std::filesystem::path path(frame.frame);
+  std::error_code unknown;
+  if (frame.has_pattern())
+    throw UsageError("run: the results of a shot have no name; give one, such as -o '{}.####.exr'", technique);
+  if (std::filesystem::exists(path, unknown) && !std::filesystem::is_regular_file(path, unknown))
+    throw UsageError("run: the result has no name; give one, such as -o {}.exr", technique);
+  const std::filesystem::path out = path.parent_path() / fmt::format("{}_{}.exr", path.stem().string(), technique);
+  if (std::filesystem::exists(std::filesystem::symlink_status(out, unknown)) && !is_own_result(out, frame.frame))
+    throw Error("{} is there, and is not the result of an earlier call on this frame; name the result with -o OUT.exr",
+                out.string());
+  return out.string();
 }
 
 }  // namespace
@@ -81,9 +71,8 @@ void settle_outputs(RunCommand& flags) {
     flags.picture.swap(flags.out);
   }
   if (!flags.out.empty() || !flags.into.empty() || !flags.composite.path.empty() || !flags.picture.empty()) return;
-  flags.out = name_beside(flags.frame.frame, flags.technique);
+  flags.out = name_beside(flags.frame, flags.technique);
   flags.is_out_made = true;
-  check_nothing_lost(flags.out);
 }
 
 std::vector<NamedPath> named(const FrameOutputs& outputs) {
@@ -118,7 +107,9 @@ OutputSettings output_settings(const RunCommand& flags, const PlanRequest& reque
   // A history keeps its digits.
   const bool is_history = is_temporal(flags) && !flags.frame.has_pattern();
   const bool half = flags.half || !(flags.shot.as_float || is_history);
-  OutputSettings settings{{half, flags.compression, {}, true}, {half, flags.compression}, {}};
+  OutputSettings settings{{half, flags.compression, {}, true}, {!flags.shot.as_float, flags.compression}, {}};
+  settings.names_frame =
+      !flags.frame.has_pattern() && flags.frame.other_eye.empty() && !flags.frame_flags.changes_depth();
   if (!flags.shot.as_float) settings.copy.half_planes = {"reflection"};
   settings.copied = planes_of_file(request, plan);
   if (!flags.composite.path.empty()) settings.composited = plane_to_composite(flags.composite, plan);

@@ -56,7 +56,8 @@ void add_run(CLI::App& app) {
            "write these planes, such as ao,ao_raw, and compute only what they need; default: filtered results");
   add_text(*command, "--picture", flags->picture, "OUT.png", "the first output as a picture for people");
   command->add_flag("--bare", flags->bare, "leave cameras and depth out of OUT.exr");
-  CLI::Option* half = command->add_flag("--half", flags->half, "write AO as half, as is done without this flag");
+  CLI::Option* half = command->add_flag("--half", flags->half,
+                                        "write AO and the like as half: the default, but with --temporal or --history");
   add_compression(*command, flags->compression);
   flags->technique_flags.add_to(*command);
   flags->run_flags.add_to(*command);

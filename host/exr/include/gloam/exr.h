@@ -183,8 +183,9 @@ class FrameFile {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Attribute of a result: the frame's file, a path from the result's folder.
+/// Attributes of a result: the frame's file, a path from the result's folder, and its size.
 inline constexpr const char* frame_attribute = "gloamFrame";
+inline constexpr const char* frame_bytes_attribute = "gloamFrameBytes";
 
 /// Options for writing a frame.
 struct WriteOptions {

@@ -17,7 +17,7 @@ struct PlanRequest {
   std::vector<std::string> outputs = {};
   /// Of the outputs, only the planes named here (empty: all); may name a technique's extras.
   std::vector<std::string> only_outputs = {};
-  /// Of the outputs, those that were filtered only as filtered: `ao` without `ao_raw`. Planes named in `only_outputs` are made all the same.
+  /// Of the outputs, those that were filtered only as filtered: `ao` without `ao_raw`. Planes named by themselves are made all the same.
   bool only_filtered = false;
   /// Extras to make besides the outputs of the techniques asked for: "bent_normal".
   std::vector<std::string> with = {};
