@@ -117,7 +117,7 @@ TEST_F(HistoryTest, AnotherEyeOrWindowIsRefused) {
   Frame without = frame_of({"left"});
   without.views[0].planes.erase("reflection");
   const std::string missing = message_of([&] { take(without, frame); });
-  EXPECT_NE(missing.find("has no 'reflection', 'ao_raw' or 'indirect_raw'; give the file that gloam run wrote"),
+  EXPECT_NE(missing.find("has no 'reflection', 'ao_raw' or 'indirect_raw'; give the file that gloam run --temporal wrote"),
             std::string::npos)
       << missing;
 }
