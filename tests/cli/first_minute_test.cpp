@@ -38,7 +38,9 @@ TEST_F(FirstMinute, ATechniqueIsACommand) {
   EXPECT_EQ(run.out.find("gloam view"), std::string::npos) << "who names a file is told of no other commands";
   ASSERT_EQ(gloam({"hbao+", frame, "--preset", "low", "--radius", "0.3"}).status, 0);
   EXPECT_TRUE(fs::exists(path("frame_hbao+.exr")));
-  // Its own results are written anew.
+  // Its own results are written anew, whatever the flags.
+  EXPECT_EQ(gloam({"ao", frame}).status, 0);
+  EXPECT_EQ(gloam({"ao", frame, "--background", "1e9"}).status, 0);
   EXPECT_EQ(gloam({"ao", frame}).status, 0);
 }
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "base/command_line.h"
 #include "cli/list/techniques.h"
 #include "gloam/error.h"
 #include "gloam/frame_pattern.h"
@@ -17,12 +18,13 @@ std::vector<std::string> commands_of(const CLI::App& app) {
   return names;
 }
 
-}  // namespace
-
-std::string typed(const std::string& word) {
-  const bool is_plain = word.find_first_of(" #*?'\"$&;()<>|`\\") == std::string::npos;
-  return is_plain ? word : "'" + word + "'";
+/// `what`: the technique that was given in the frame's place, or "ao".
+std::string order_in_words(const std::string& command, const std::string& frame, const std::string& what) {
+  return fmt::format("{}: '{}' is a frame, and what is computed comes first: gloam {} {} {}", command, frame, command,
+                     what, quoted_for_shell(frame));
 }
+
+}  // namespace
 
 bool names_technique(const std::string& word) {
   if (contains(technique_names(), word)) return true;
@@ -51,7 +53,7 @@ std::string meant_by_first_word(const CLI::App& app, const std::string& word) {
     return fmt::format(
         "'{}' is a file, and a command comes first: gloam ao {} computes ambient occlusion, gloam info {} tells what "
         "it holds",
-        word, typed(word), typed(word));
+        word, quoted_for_shell(word), quoted_for_shell(word));
   if (word.starts_with("-"))
     return fmt::format("no flag '{}'{} (gloam --help)", word, suggestion(word, {"--help", "--version"}));
   std::vector<std::string> names = commands_of(app);
@@ -71,16 +73,12 @@ std::string meant_without_technique(const CLI::App& command) {
   if (places.size() < 2 || places[0]->count() != 1 || places[1]->count() != 0) return "";
   const std::string frame = places[0]->results().front();
   if (!names_frame(frame) || names_technique(frame)) return "";
-  return fmt::format("{}: '{}' is a frame, and what is computed comes first: gloam {} ao {}", name, frame, name,
-                     typed(frame));
+  return order_in_words(name, frame, "ao");
 }
 
 void check_order(const std::string& command, const std::string& technique, const std::string& frame) {
   if (names_technique(technique) || !names_frame(technique)) return;
-  const std::string meant =
-      names_technique(frame) ? fmt::format("{} {}", frame, typed(technique)) : "ao " + typed(technique);
-  throw UsageError("{}: '{}' is a frame, and what is computed comes first: gloam {} {}", command, technique, command,
-                   meant);
+  throw UsageError("{}", order_in_words(command, technique, names_technique(frame) ? frame : "ao"));
 }
 
 }  // namespace gloam::cli

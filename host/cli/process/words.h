@@ -10,9 +10,6 @@ namespace gloam::cli {
 /// A technique for a command, `gloam ao frame.exr`, is `gloam run ao frame.exr`; `gloam help run` is `gloam run --help`.
 std::vector<std::string> completed_words(std::vector<std::string> words);
 
-/// A word as it is typed in a shell.
-std::string typed(const std::string& word);
-
 /// Whether a word names a technique, or a plane that one makes by default ("ao").
 bool names_technique(const std::string& word);
 

@@ -3,11 +3,11 @@
 #include <future>
 #include <limits>
 
+#include "base/command_line.h"
 #include "base/statistics.h"
 #include "cli/flags/memory.h"
 #include "cli/flags/options.h"
 #include "cli/flags/radius.h"
-#include "cli/process/words.h"
 #include "cli/run/command.h"
 #include "cli/run/outputs.h"
 #include "gloam/compute.h"
@@ -188,9 +188,9 @@ void print_result(const RunCommand& flags, const Plan& plan, const RunResult& re
 
 /// To people who named no file, and so perhaps do not know the other commands.
 void print_what_next(const RunCommand& flags) {
-  const std::string out = printable(typed(flags.out));
+  const std::string out = printable(quoted_for_shell(flags.out));
   fmt::print("gloam view {} {} shows both; gloam compare {} TRUTH.exr measures it; gloam run --help has more\n",
-             printable(typed(flags.frame.frame)), out, out);
+             printable(quoted_for_shell(flags.frame.frame)), out, out);
 }
 
 }  // namespace
@@ -257,7 +257,7 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
                                            files.history()->file().path().string(), files.name())));
   carry_over(frame, result.frame, {.depth = carries_depth, .cameras = !flags.bare});
   result.frame.attributes = provenance({{&plan}}, options);
-  if (flags.is_out_made) result.frame.attributes[named_by_gloam] = "yes";
+  if (flags.is_out_made) result.frame.attributes[named_by_gloam] = frame_seen_from(flags.frame.frame, flags.out);
   const std::vector<std::string> pictures = write_pictures(flags.picture, result.frame, frame, pictured(plan));
   note(write_outputs(outputs, sources, result.frame, writing));
   watch.lap("write");

@@ -40,8 +40,7 @@ bool is_own_result(const std::filesystem::path& path, const std::string& frame) 
   const LooksAtFiles looks;
   try {
     const FrameFile file(path, {.only_looks = true, .as_stored = true});
-    return file.text_attribute(named_by_gloam) == "yes" &&
-           file.text_attribute(frame_attribute) == frame_seen_from(frame, path.string());
+    return file.text_attribute(named_by_gloam) == frame_seen_from(frame, path.string());
   } catch (const Error&) {
     return false;
   }
@@ -107,7 +106,8 @@ OutputSettings output_settings(const RunCommand& flags, const PlanRequest& reque
   // A history keeps its digits.
   const bool is_history = is_temporal(flags) && !flags.frame.has_pattern();
   const bool half = flags.half || !(flags.shot.as_float || is_history);
-  OutputSettings settings{{half, flags.compression, {}, true}, {!flags.shot.as_float, flags.compression}, {}};
+  OutputSettings settings{{half, flags.compression}, {!flags.shot.as_float, flags.compression}, {}};
+  settings.out.shows_result = true;
   settings.names_frame =
       !flags.frame.has_pattern() && flags.frame.other_eye.empty() && !flags.frame_flags.changes_depth();
   if (!flags.shot.as_float) settings.copy.half_planes = {"reflection"};

@@ -10,7 +10,7 @@
 
 namespace gloam::cli {
 
-/// Attribute of a result that lies beside its frame since nobody named it.
+/// Attribute of a result that lies beside its frame since nobody named it: the frame, as `frame_seen_from` the result.
 inline constexpr const char* named_by_gloam = "gloamNamed";
 
 /// Decides what is written: -o OUT.png is --picture OUT.png, and where nothing is said, the result lies beside the frame,
