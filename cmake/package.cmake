@@ -69,7 +69,7 @@ It runs on any OpenCL device, a CPU among them.")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libgloam-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "libfmt-dev, libglm-dev, libopenexr-dev, libdeflate-dev, libopencv-dev, libopencv-contrib-dev, \
-ocl-icd-opencl-dev, libpng-dev, libembree-dev, libassimp-dev, libssl-dev")
+ocl-icd-opencl-dev, libpng-dev, libtiff-dev, libembree-dev, libassimp-dev, libssl-dev")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SUGGESTS "gloam, pocl-opencl-icd | opencl-icd")
 set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "image-space effects on captured G-buffers - C++ library
 gloam computes ambient occlusion and other image-space effects on frames

@@ -81,15 +81,6 @@ std::optional<std::pair<int, std::string>> part_in(const std::vector<Entry>& ent
   return {};
 }
 
-/// Throws UsageError if no plane has the name.
-void check_plane_name(const std::string& plane) {
-  std::vector<std::string> names;
-  for (const PlaneKind& kind : plane_kinds()) names.push_back(kind.name);
-  if (std::find(names.begin(), names.end(), plane) != names.end()) return;
-  throw UsageError("{}: no plane has this name{}; there are {}", option("plane", plane), suggestion(plane, names),
-                   enumerate(names));
-}
-
 /// The channels that the user named for a plane, in one view; empty if the view has no such channel.
 /// Throws Error for a layer, or a number of channels, that does not fit the plane.
 std::vector<const FileChannel*> chosen(const std::vector<Layer>& layers, const std::vector<Entry>& entries,
@@ -249,7 +240,7 @@ std::string eye_in_name(const std::string& part_name) {
 
 NamedPlanes name_planes(const std::vector<FileChannel>& channels, const std::vector<std::string>& multi_view,
                         const NameOptions& options) {
-  for (const auto& [plane, text] : options.channels) check_plane_name(plane);
+  for (const auto& [plane, text] : options.channels) check_plane_name(plane, "plane");
   NamedPlanes named;
   std::vector<Entry> entries = entries_of(channels, multi_view);
   const std::vector<std::string> views = selected_views(views_of(entries, multi_view), options.views);
@@ -265,6 +256,14 @@ NamedPlanes name_planes(const std::vector<FileChannel>& channels, const std::vec
   for (const auto& [plane, text] : options.channels)
     if (!overridden.contains(plane)) no_such_channel(entries, plane, text);
   return named;
+}
+
+void check_plane_name(const std::string& plane, const char* flag) {
+  std::vector<std::string> names;
+  for (const PlaneKind& kind : plane_kinds()) names.push_back(kind.name);
+  if (std::find(names.begin(), names.end(), plane) != names.end()) return;
+  throw UsageError("{}: no plane has this name{}; there are {}", option(flag, plane), suggestion(plane, names),
+                   enumerate(names));
 }
 
 }  // namespace gloam

@@ -40,4 +40,7 @@ struct NameOptions {
 NamedPlanes name_planes(const std::vector<FileChannel>& channels, const std::vector<std::string>& multi_view,
                         const NameOptions& options = {});
 
+/// Throws UsageError if no plane has the name that this flag gives.
+void check_plane_name(const std::string& plane, const char* flag);
+
 }  // namespace gloam

@@ -82,6 +82,7 @@ std::vector<Spelling> known_spellings() {
       {"color", "c", rgb, renderer},
       {"color", "ci", rgb, renderer},
       {"color", "color", rgb, generic},
+      {"color", "colors", rgb, generic},
       {"color", "main", rgb, generic},
       {"alpha", "", "a", own},
       {"alpha", "combined", "a", renderer},
@@ -121,6 +122,7 @@ std::vector<Spelling> known_spellings() {
       // Geometry.
       {"position", "p", "r,g,b", renderer},
       {"position", "position", xyz, renderer},
+      {"position", "positions", xyz, renderer},
       {"position", "pworld", xyz, renderer},
       {"position", "worldposition", xyz, renderer},
       {"position", "absoluteworldposition", xyz, renderer},

@@ -29,15 +29,20 @@ bool all_background(const Channel& depth) {
   return true;
 }
 
-bool is_window_depth(DepthConvention convention) {
-  return convention == DepthConvention::ndc || convention == DepthConvention::reversed;
+/// Values that are no lengths.
+bool is_mapped(DepthConvention convention) {
+  return convention == DepthConvention::ndc || convention == DepthConvention::reversed ||
+         convention == DepthConvention::inverse;
 }
 
 /// What positions tell of a depth; `unknown` where they tell nothing, or are not asked.
 DepthRelation relation_to_positions(const ExrFile& file, const FileCameras& cameras, const View& view) {
   const auto found = cameras.positions.find(view.name);
-  if (found == cameras.positions.end() || is_window_depth(file.options.depth)) return {};
-  return found->second.depth;
+  if (found == cameras.positions.end() || is_mapped(file.options.depth)) return {};
+  if (file.options.depth_offset) return {};  // positions are compared with what is stored
+  DepthRelation relation = found->second.depth;
+  relation.scale *= file.options.depth_scale.value_or(1);
+  return relation;
 }
 
 /// Takes the convention that the positions show, unless a flag states one. Returns whether they show any.
@@ -110,6 +115,8 @@ std::string declared_depth_convention(const ExrFile& file) {
       return "ndc";
     case DepthConvention::reversed:
       return "reversed";
+    case DepthConvention::inverse:
+      return "inverse";
     case DepthConvention::z:
       return "z";
     default:
@@ -143,7 +150,7 @@ std::string convert_depth(const ExrFile& file, const FileCameras& cameras, View&
   scale_to_positions(source, relation.scale, depth, notes);
   const bool is_half = std::all_of(source.channels.begin(), source.channels.end(),
                                    [](const ChannelSource& channel) { return channel.type == "half"; });
-  if (!is_window_depth(options.depth)) {  // whose steps are those of the map, and not told
+  if (!is_mapped(options.depth)) {  // whose steps are those of the map, and not told
     const std::string steps =
         note_on_steps([&](int x, int y) { return depth.at(x, y); }, depth.layout(), *view.camera, is_half);
     if (!steps.empty()) notes.push_back(steps);

@@ -31,6 +31,7 @@
 #include "gloam/error.h"
 #include "gloam/option.h"
 #include "gloam/planes.h"
+#include "image/image_values.h"
 
 namespace gloam {
 namespace {
@@ -44,6 +45,9 @@ struct Original {
 };
 
 Original open_original(const std::filesystem::path& path) {
+  if (is_image_file(path))
+    throw Error("{}: is no EXR, and a copy with results as parts is made of EXR alone; {} writes the result by itself",
+                path.string(), option("output", "OUT.exr"));
   Original original;
   original.stream = std::make_unique<ExrInput>(path);
   guarded(path, [&] {

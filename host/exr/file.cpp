@@ -6,10 +6,12 @@
 
 #include "exr/depth_of_positions.h"
 #include "exr/errors.h"
+#include "exr/other_images.h"
 #include "exr/validation.h"
 #include "exr/view_planes.h"
 #include "gloam/error.h"
 #include "gloam/option.h"
+#include "image/image_values.h"
 
 namespace gloam {
 namespace {
@@ -23,11 +25,13 @@ void check_magic(ExrInput& stream, const fs::path& path) {
   char magic[4] = {};
   if (stream.size() >= 4) stream.read(magic, 4);
   stream.seekg(0);
-  if (std::memcmp(magic, "\x76\x2f\x31\x01", 4) != 0) throw Error("{}: is not an EXR file", path.string());
+  if (std::memcmp(magic, "\x76\x2f\x31\x01", 4) != 0)
+    throw Error("{}: is not an EXR file, nor ends as an image of another format that is read: {}", path.string(),
+                image_formats());
 }
 
 void open_parts(ExrFile& file) {
-  file.stream = std::make_unique<ExrInput>(file.path);
+  file.stream = open_input(file.path, file.options, file.notes);
   check_magic(*file.stream, file.path);
   use_all_threads();
   guarded(file.path, [&] {
@@ -35,6 +39,16 @@ void open_parts(ExrFile& file) {
     file.parts = std::make_unique<Imf::MultiPartInputFile>(*file.stream);
   });
   check_parts(file.path, *file.parts, file.options.most_pixels);
+}
+
+void note_deep_parts(ExrFile& file) {
+  for (int part = 0; part < file.headers.parts(); ++part) {
+    const Imf::Header& header = file.headers.of_part(part);
+    if (!is_deep(header)) continue;
+    file.notes.push_back(
+        fmt::format("part '{}' is deep, with many samples per pixel, and is left out; flatten it to use it",
+                    header.hasName() ? header.name() : std::to_string(part)));
+  }
 }
 
 void find_planes(ExrFile& file) {
@@ -101,6 +115,7 @@ ExrFile open_exr(const fs::path& path, const ReadOptions& options) {
     file.headers = Headers(*file.parts);
     if (file.headers.has_views_by_part_names())
       file.notes.push_back("views: left and right are taken from the names of the parts");
+    note_deep_parts(file);
     find_planes(file);
     check_chosen_planes(file);
     find_pixel_aspect(file);

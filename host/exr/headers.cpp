@@ -6,6 +6,7 @@
 #include "base/lists.h"
 #include "exr/added_parts.h"
 #include "exr/attributes.h"
+#include "exr/validation.h"
 
 namespace gloam {
 namespace {
@@ -63,6 +64,7 @@ std::vector<FileChannel> Headers::channels() const {
   std::vector<FileChannel> channels;
   for (int part = 0; part < parts(); ++part) {
     const Imf::Header& header = of_part(part);
+    if (is_deep(header)) continue;
     const std::string name = header.hasName() ? header.name() : "";
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
       channels.push_back({part, view_of_part(part), name, c.name(), type_name(c.channel().type)});

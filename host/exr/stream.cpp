@@ -46,6 +46,13 @@ ExrInput::ExrInput(const std::filesystem::path& path) : Imf::IStream(path.c_str(
   throw Error("{}: is a device or a pipe; name a regular file", path.string());
 }
 
+ExrInput::ExrInput(const std::filesystem::path& path, int descriptor)
+    : Imf::IStream(path.c_str()), descriptor_(descriptor) {
+  struct stat about {};
+  ::fstat(descriptor_, &about);
+  size_ = uint64_t(about.st_size);
+}
+
 ExrInput::~ExrInput() { ::close(descriptor_); }
 
 void ExrInput::read_at(uint64_t position, char* bytes, size_t count) const {

@@ -19,6 +19,8 @@ class ExrInput : public Imf::IStream {
  public:
   /// Throws Error naming the path if it is missing, a folder, not readable or not a regular file.
   explicit ExrInput(const std::filesystem::path& path);
+  /// Reads a file in memory that stands for `path`, and closes its descriptor at the end.
+  ExrInput(const std::filesystem::path& path, int descriptor);
   ~ExrInput() override;
   bool read(char* bytes, int count) override;
   uint64_t tellg() override { return position_; }

@@ -162,13 +162,17 @@ uint64_t check_headers(const fs::path& path, ExrInput& stream, long long most_pi
   return end;
 }
 
+bool is_deep(const Imf::Header& header) { return header.hasType() && Imf::isDeepData(header.type()); }
+
 void check_parts(const fs::path& path, const Imf::MultiPartInputFile& file, long long most_pixels) {
+  int deep = 0;
   for (int part = 0; part < file.parts(); ++part) {
     const Imf::Header& header = file.header(part);
-    if (header.hasType() && Imf::isDeepData(header.type()))
-      throw Error("{}: is a deep EXR, with many samples per pixel; flatten it first", path.string());
+    deep += is_deep(header);
     check_windows(path, header, most_pixels);
   }
+  if (deep == file.parts())
+    throw Error("{}: is a deep EXR, with many samples per pixel; flatten it first", path.string());
 }
 
 // No codec compresses a million to one.

@@ -19,7 +19,10 @@ void check_size(const std::filesystem::path& path, const Box& box, const char* w
 /// cannot be parsed. Returns where the headers end and the tables of chunks begin.
 uint64_t check_headers(const std::filesystem::path& path, ExrInput& stream, long long most_pixels);
 
-/// Throws Error for parts that cannot be read: deep ones, and those with windows that `check_size` refuses.
+/// Whether a part has many samples per pixel.
+bool is_deep(const Imf::Header& header);
+
+/// Throws Error for a file of deep parts alone, and for windows that `check_size` refuses.
 void check_parts(const std::filesystem::path& path, const Imf::MultiPartInputFile& file, long long most_pixels);
 
 /// Throws Error for a part whose header overstates its size: a file of `file_size` bytes cannot hold so many pixels.

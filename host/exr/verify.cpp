@@ -10,6 +10,7 @@
 #include <list>
 #include <vector>
 
+#include "exr/validation.h"
 #include "exr/whole_chunks.h"
 
 namespace gloam {
@@ -88,6 +89,7 @@ void decode_tiles(const ExrFile& file, int part, const std::set<std::pair<int, s
 
 void decode_the_rest(const ExrFile& file, const std::set<std::pair<int, std::string>>& decoded) {
   for (int part = 0; part < file.headers.parts(); ++part) {
+    if (is_deep(file.headers.of_part(part))) continue;
     if (file.headers.of_part(part).hasTileDescription()) {
       decode_tiles(file, part, decoded);
     } else {

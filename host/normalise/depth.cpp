@@ -93,6 +93,29 @@ void mark_near_plane(Channel& depth, float near, std::vector<std::string>& assum
       100 * double(count) / double(pixels), near, option("background")));
 }
 
+/// What is stored, times the scale, plus the offset.
+void apply_scale(Channel& depth, const StatedDepth& stated) {
+  if (!stated.scale && !stated.offset) return;
+  const double scale = stated.scale.value_or(1), offset = stated.offset.value_or(0);
+  for_each_row(depth.layout(), [&](int y) {
+    float* row = depth.row(y);
+    for (int x = 0; x < depth.layout().width; ++x) row[x] = float(scale * double(row[x]) + offset);
+  });
+}
+
+/// As above, of lengths whose background is +inf, or of their reciprocals, which become lengths.
+void to_lengths(Channel& depth, const StatedDepth& stated) {
+  const double scale = stated.scale.value_or(1), offset = stated.offset.value_or(0);
+  const bool is_inverse = stated.convention == DepthConvention::inverse;
+  for_each_row(depth.layout(), [&](int y) {
+    float* row = depth.row(y);
+    for (int x = 0; x < depth.layout().width; ++x) {
+      const double value = scale * double(row[x]) + offset, length = is_inverse ? 1 / value : value;
+      row[x] = row[x] < infinity && length >= double(nearest_depth) ? float(length) : infinity;
+    }
+  });
+}
+
 /// The map from window depth, checked: near and far are needed; flags override the camera.
 WindowDepth window_depth(const Camera& camera, const StatedDepth& stated, std::vector<std::string>& assumed) {
   const bool reversed = stated.convention == DepthConvention::reversed;
@@ -130,6 +153,7 @@ std::string window_to_depth(Channel& depth, const Channel* alpha, const Camera& 
                             std::vector<std::string>& assumed) {
   const bool reversed = stated.convention == DepthConvention::reversed;
   const WindowDepth map = window_depth(camera, stated, assumed);
+  apply_scale(depth, stated);
   if (alpha && !reversed && marks_background(*alpha))
     mark_missing(depth, *alpha);
   else if (!stated.background)
@@ -147,16 +171,30 @@ std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& wi
                           const StatedDepth& stated, std::vector<std::string>& assumed) {
   if (camera.slits && stated.convention != DepthConvention::automatic && stated.convention != DepthConvention::z)
     throw UsageError(
-        "{} ray, ndc and reversed need a single centre of projection; the depth of a display's module is z",
+        "{} ray, ndc, reversed and inverse need a single centre of projection; the depth of a display's module is z",
         option("depth"));
   if (stated.convention == DepthConvention::ndc || stated.convention == DepthConvention::reversed)
     return window_to_depth(depth, alpha, camera, stated, assumed);
 
+  const std::optional<double> far = stated.far ? stated.far : camera.far;
+  const bool is_mapped = stated.scale || stated.offset || stated.convention == DepthConvention::inverse;
   const StoredDepth found =
-      look_at_depth(rows_of(depth), background_of(stated.background, stated.far ? stated.far : camera.far),
+      look_at_depth(rows_of(depth), background_of(stated.background, is_mapped ? std::nullopt : far),
                     stated.background.has_value(), "; " + option("background") + " says otherwise");
   assumed.insert(assumed.end(), found.notes.begin(), found.notes.end());
   clean_depth(depth, found.sign, found.background);
+  if (is_mapped) {
+    to_lengths(depth, stated);
+    clean_depth(depth, 1, background_of({}, far));
+  }
+  if (stated.convention == DepthConvention::inverse) {
+    if (!stated.scale)
+      assumed.push_back(fmt::format(
+          "depth: 1 / what is stored is taken for scene units; {} says what it is to be multiplied by, 1 / (baseline x "
+          "focal length) of disparities in pixels",
+          option("depth-scale")));
+    return "inverse";
+  }
   if (stated.convention == DepthConvention::ray) {
     if (!camera.orthographic) ray_to_depth(depth, window, camera);
     return "ray";

@@ -14,9 +14,10 @@ namespace gloam {
 ///
 /// `ray` is the distance from the eye; it needs the camera. `ndc` is window depth d in 0..1, 0 at near and 1 at far, as
 /// OpenGL (after its default depth range) and Direct3D write it: z = n f / (f - d (f - n)). `reversed` is 1 at near and
-/// 0 at far: z = n f / (n + d (f - n)), or n / d for an infinite far plane. Both are linear for an orthographic camera. They need
+/// 0 at far: z = n f / (n + d (f - n)), or n / d for an infinite far plane. `inverse` is 1 / z. With `stated.scale` s and `stated.offset` o what is stored
+/// becomes s d + o first; background is what is stored, but for the far plane. Both are linear for an orthographic camera. They need
 /// near; ndc and orthographic cameras also need far. Both come from `stated` or else from the camera; without far, reversed
-/// depth is taken to have an infinite one. `automatic` is z.
+/// depth is taken to have an infinite one. `automatic` is ray where plane surfaces say so (straightness.h), unless the frame is of a shot; else z.
 ///
 /// Background: NaN, infinite, 0 and anything below 1e-30 (no denormals reach a kernel), 1e10 and more; before conversion, the far
 /// plane if it is known (to float rounding) and exactly `stated.background`. ndc: d < 0 or d >= 1; reversed: d <= 0 or d > 1.

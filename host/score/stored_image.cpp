@@ -8,7 +8,7 @@
 #include "gloam/error.h"
 #include "gloam/option.h"
 #include "gloam/planes.h"
-#include "picture/png_values.h"
+#include "image/png_values.h"
 
 namespace gloam::score {
 namespace {

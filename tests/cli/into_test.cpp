@@ -242,6 +242,11 @@ TEST_F(Into, DeepPartsStay) {
     output.setFrameBuffer(buffer);
     output.writePixels(into_height);
   }
+  // Flat parts are read without it, and the note says so; a file of deep parts alone is refused.
+  const Result told = gloam({"info", path("f.exr")});
+  EXPECT_EQ(told.status, 0) << told.err;
+  EXPECT_NE(told.out.find("part 'deep' is deep"), std::string::npos) << told.out;
+  EXPECT_EQ(gloam({"run", "gtao", path("f.exr"), "-o", path("ao.exr")}).status, 0);
   Frame frame = small_frame(into_width, into_height, {"ao"});
   write_copy(path("copy.exr"), path("f.exr"), {{"ao", &frame, {}}});
   Imf::MultiPartInputFile before(file("f.exr").c_str()), after(file("copy.exr").c_str());

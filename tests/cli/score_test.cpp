@@ -3,7 +3,7 @@
 
 #include "cli/score_fixture.h"
 #include "picture/picture.h"
-#include "picture/png_values.h"
+#include "image/png_values.h"
 
 namespace gloam::test::score_test {
 namespace {

@@ -15,6 +15,50 @@ namespace {
 
 constexpr const char* reading_heading = "Reading the frame";
 
+/// Files of planes. Where no frame is given, the depth's file is the frame.
+void add_plane_file_flags(CLI::App& app, FrameFlags& flags) {
+  CLI::Option* of_depth =
+      add_text(app, "--depth-file", flags.depth_file, "FILE",
+               "depth in a file of its own: EXR, PNG, TIFF, PFM, HDR, NPY, NPZ, HDF5; needs no FRAME.exr beside it");
+  add_text(app, "--normal-file", flags.normal_file, "FILE", "normals in a file of their own");
+  add_text(app, "--color-file", flags.color_file, "FILE", "colours in a file of their own");
+  add_text(app, "--plane-file", flags.plane_files, "PLANE=FILE", "any plane in a file of its own (repeatable)")
+      ->expected(1)
+      ->take_all();
+  CLI::Option* frame = app.get_option_no_throw("frame");
+  if (!frame) return;
+  of_depth->each([frame](const std::string& file) {
+    if (frame->count() > 0) return;
+    frame->add_result(file);
+    frame->run_callback();
+  });
+}
+
+/// "PLANE=FILE" as its two sides. Throws UsageError, with `example`, for another form.
+std::pair<std::string, std::string> sides_of(const std::string& text, const char* flag, const char* what,
+                                             const char* example) {
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+    throw UsageError("{} '{}' is not {}; write {}", flag, text, what, example);
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+std::map<std::string, std::filesystem::path> planes_with_files(const FrameFlags& flags) {
+  std::map<std::string, std::filesystem::path> files;
+  const auto add = [&](const std::string& plane, const std::string& file) {
+    if (!file.empty() && !files.emplace(plane, file).second)
+      throw UsageError("--plane-file {}={}: the plane has the file {} already", plane, file, files.at(plane).string());
+  };
+  add("depth", flags.depth_file);
+  add("normal", flags.normal_file);
+  add("color", flags.color_file);
+  for (const std::string& text : flags.plane_files) {
+    const auto [plane, file] = sides_of(text, "--plane-file", "PLANE=FILE", "roughness=rough.png");
+    add(plane, file);
+  }
+  return files;
+}
+
 }  // namespace
 
 void FrameArguments::add_to(CLI::App& app) {
@@ -52,6 +96,11 @@ void FrameFlags::add_to(CLI::App& app) {
   add_number(app, "--far", far, {0, infinity}, "far plane, scene units; depth there is background", "Z");
   add_number(app, "--background", background, {-most_float, most_float, true}, "the depth value that means background",
              "VALUE");
+  add_number(app, "--depth-scale", depth_scale, {-most_float, most_float},
+             "what is stored as depth is multiplied by this: 0.001 makes metres of millimetres", "S");
+  add_number(app, "--depth-offset", depth_offset, {-most_float, most_float}, "and this is added", "VALUE");
+  add_choice(app, "--depth-bytes", depth_bytes, depth_bytes_words,
+             "depth of 24 bits in three bytes: red is the lowest, or the highest");
   add_choice(app, "--normal-space", normals.space, normal_space_words, "space of the normals");
   add_choice(app, "--normal-range", normals.range, normal_range_words, "normals from -1 to 1, or from 0 to 1");
   add_parsed(app, "--normal-axes", normals.axes, parse_normal_axes,
@@ -60,6 +109,7 @@ void FrameFlags::add_to(CLI::App& app) {
            "take a plane from these channels or layer: depth=Layer.Z; none: leave the plane out (repeatable)")
       ->expected(1)
       ->take_all();
+  add_plane_file_flags(app, *this);
   CLI::Option* one = add_text(app, "--view", view, "NAME", "use this view only");
   add_text(app, "--views", views, "A,B", "use these views, in this order")->excludes(one);
   app.add_option("--limit-memory", limit_memory,
@@ -69,7 +119,8 @@ void FrameFlags::add_to(CLI::App& app) {
 }
 
 bool FrameFlags::changes_depth() const {
-  return near || far || background || depth != DepthConvention::automatic ||
+  return near || far || background || depth_scale || depth_offset || depth_bytes != DepthBytes::automatic ||
+         !depth_file.empty() || depth != DepthConvention::automatic ||
          std::any_of(planes.begin(), planes.end(),
                      [](const std::string& plane) { return plane.starts_with("depth="); });
 }
@@ -82,15 +133,16 @@ ReadOptions FrameFlags::read_options() const {
   options.far = far;
   if (background) options.background = float(*background);
   options.depth = depth;
+  options.depth_scale = depth_scale;
+  options.depth_offset = depth_offset;
+  options.depth_bytes = depth_bytes;
+  options.plane_files = planes_with_files(*this);
   options.normals = normals;
   if (!view.empty()) options.views = {view};
   if (!views.empty()) options.views = split_list(views, "--views");
   for (const std::string& plane : planes) {
-    const size_t equals = plane.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == plane.size()) {
-      throw UsageError("--plane '{}' is not PLANE=CHANNELS; write depth=Layer.Z", plane);
-    }
-    options.channels[plane.substr(0, equals)] = plane.substr(equals + 1);
+    const auto [name, channels] = sides_of(plane, "--plane", "PLANE=CHANNELS", "depth=Layer.Z");
+    options.channels[name] = channels;
   }
   return options;
 }

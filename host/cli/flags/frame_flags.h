@@ -22,7 +22,11 @@ struct FrameFlags {
   std::vector<std::string> planes;
   std::optional<double> fov, near, far, background;
   DepthConvention depth = DepthConvention::automatic;
+  std::optional<double> depth_scale, depth_offset;
+  DepthBytes depth_bytes = DepthBytes::automatic;
   NormalConvention normals;
+  std::string depth_file, normal_file, color_file;
+  std::vector<std::string> plane_files;
   void add_to(CLI::App& app);
   /// Throws UsageError for malformed planes and views.
   ReadOptions read_options() const;

@@ -25,7 +25,13 @@ struct ReadOptions {
   DepthConvention depth = DepthConvention::automatic;
   std::optional<double> near, far;  ///< --near, --far: for NDC and reversed depth, and the far plane as background
   std::optional<float> background;  ///< --background: depth that means background, instead of 1e10 and more
-  NormalConvention normals;         ///< --normal-space, --normal-range, --normal-axes
+  std::optional<double> depth_scale,
+      depth_offset;  ///< --depth-scale, --depth-offset: stored depth times the scale, plus the offset
+  DepthBytes depth_bytes = DepthBytes::automatic;  ///< --depth-bytes
+  /// --plane-file: planes in files of their own, of any format that is read. With the frame's own path among them, that file is this plane
+  /// and nothing else. A pattern gets the number in the frame's name.
+  std::map<std::string, std::filesystem::path> plane_files;
+  NormalConvention normals;  ///< --normal-space, --normal-range, --normal-axes
   /// Of a frame of a shot: what was found of the normals for all of its frames (conventions.h), by the path of the frame's file: of two
   /// eyes each has its own. Called where normals are read and something of their convention is not stated; null: the frame's own decide.
   std::function<FoundNormals(const std::filesystem::path& file)> shot_normals;
@@ -43,7 +49,9 @@ struct ReadOptions {
   /// --plane depth=Layer.Z: plane -> channel, channels (a,b,c), layer, or "none", which hides the plane.
   std::map<std::string, std::string> channels;
 
-  StatedDepth stated_depth() const { return {depth, near, far, background}; }
+  StatedDepth stated_depth() const {
+    return {depth, near, far, background, depth_scale, depth_offset, bool(shot_normals)};
+  }
 };
 
 /// A channel of the file that holds one component of a plane.
@@ -192,7 +200,8 @@ struct WriteOptions {
   bool half = false;                     ///< AO and other bounded planes as half; depth stays float
   std::string compression = "zip";       ///< one of `compressions`
   std::vector<std::string> half_planes;  ///< these as half too, whatever they hold
-  bool shows_result = false;             ///< a result of one value is also luminance, Y, for programs that know no channel of gloam's
+  bool shows_result =
+      false;  ///< a result of one value is also luminance, Y, for programs that know no channel of gloam's
 };
 
 /// Names of the lossless compressions that frames can be written with.

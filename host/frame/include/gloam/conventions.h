@@ -8,13 +8,20 @@
 
 namespace gloam {
 
-enum class DepthConvention { automatic, z, ray, ndc, reversed };
+/// `inverse`: 1 / z, up to a factor, as disparities are.
+enum class DepthConvention { automatic, z, ray, ndc, reversed, inverse };
+
+/// In which order three bytes of 8 bits hold depth of 24: red the lowest, or red the highest.
+enum class DepthBytes { automatic, low_first, high_first };
 
 /// What is stated of depth.
 struct StatedDepth {
   DepthConvention convention = DepthConvention::automatic;
   std::optional<double> near, far;  ///< for NDC and reversed depth, and the far plane as background
   std::optional<float> background;  ///< depth that means background, instead of 1e10 and more
+  std::optional<double> scale,
+      offset;               ///< what is stored, times the scale, plus the offset, is what the convention says
+  bool is_of_shot = false;  ///< frames of a shot are read alike: what one of them shows is told, and not taken
 };
 
 enum class NormalSpace { automatic, view, world };

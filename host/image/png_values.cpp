@@ -1,4 +1,4 @@
-#include "picture/png_values.h"
+#include "image/png_values.h"
 
 #include <png.h>
 
@@ -42,14 +42,14 @@ void keep_reason(png_structp png, png_const_charp text) {
 void ignore_warning(png_structp, png_const_charp) {}
 
 /// Begins to decode: the size, and which values come. False if it failed.
-bool read_header(Decoding& d) {
+bool read_header(Decoding& d, PngAlpha alpha) {
   if (setjmp(png_jmpbuf(d.png))) return false;
   png_init_io(d.png, d.file);
   png_read_info(d.png, d.info);
   d.width = png_get_image_width(d.png, d.info);
   d.height = png_get_image_height(d.png, d.info);
   png_set_expand(d.png);  // palettes to colours, grey of few bits to 8
-  png_set_strip_alpha(d.png);
+  if (alpha == PngAlpha::left_out) png_set_strip_alpha(d.png);
   png_set_swap(d.png);  // 16 bits to this machine's order of bytes
   png_set_interlace_handling(d.png);
   png_read_update_info(d.png, d.info);
@@ -80,7 +80,8 @@ Channel channel_of(const Decoding& d, int component) {
 
 }  // namespace
 
-PngValues read_png_values(const std::filesystem::path& path, const std::function<void(const PngSize&)>& check) {
+PngValues read_png_values(const std::filesystem::path& path, const std::function<void(const PngSize&)>& check,
+                          PngAlpha alpha) {
   check_regular(path);
   Decoding d;
   const auto refuse = [&]() { return Error("{}: cannot be read as PNG: {}", path.string(), d.why); };
@@ -91,7 +92,7 @@ PngValues read_png_values(const std::filesystem::path& path, const std::function
   d.info = d.png ? png_create_info_struct(d.png) : nullptr;
   if (d.png) png_set_chunk_malloc_max(d.png, largest_chunk);  // texts and profiles, which a file may have compressed
   if (!d.info) throw Error("{}: cannot be read as PNG: out of memory", path.string());
-  if (!read_header(d)) throw refuse();
+  if (!read_header(d, alpha)) throw refuse();
   if ((long long)d.width * d.height > max_pixels)
     throw Error("{}: has {}x{} pixels; {} are read at most", path.string(), d.width, d.height, max_pixels);
   const size_t row = png_get_rowbytes(d.png, d.info);

@@ -1,0 +1,313 @@
+#include "exr/other_images.h"
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "base/lists.h"
+#include "base/words.h"
+#include "exr/channel_names.h"
+#include "exr/channel_spellings.h"
+#include "exr/channel_text.h"
+#include "exr/errors.h"
+#include "exr/image_planes.h"
+#include "exr/validation.h"
+#include "exr/writers.h"
+#include "gloam/error.h"
+#include "gloam/frame_pattern.h"
+#include "gloam/option.h"
+#include "gloam/planes.h"
+
+namespace gloam {
+namespace {
+
+namespace fs = std::filesystem;
+
+ImageWords words_for(const fs::path& file) { return {file.string(), file.filename().string()}; }
+
+/// What becomes the file in memory.
+struct Composed {
+  std::string first;  ///< the file whose size counts
+  int width = 0, height = 0;
+  std::vector<NamedChannel> channels;
+  std::vector<std::string>& notes;
+};
+
+void add_channels(std::vector<NamedChannel> channels, const std::string& file, Composed& composed) {
+  for (NamedChannel& channel : channels) {
+    const Layout& layout = channel.channel.layout();
+    if (composed.first.empty()) {
+      composed.first = file;
+      composed.width = layout.width, composed.height = layout.height;
+    }
+    if (layout.width != composed.width || layout.height != composed.height)
+      throw Error("{}: is {}x{}, and {} is {}x{}; the planes of a frame are of one size", file, layout.width,
+                  layout.height, composed.first, composed.width, composed.height);
+    std::erase_if(composed.channels, [&](const NamedChannel& other) { return other.name == channel.name; });
+    composed.channels.push_back(std::move(channel));
+  }
+}
+
+/// The names in a file's name, in lower case: "scene_WorldNormal-0001" has "scene", "world", "normal", "worldnormal".
+std::vector<std::string> words_in(const std::string& stem) {
+  std::vector<std::string> words;
+  std::string word, joined;
+  bool was_lower = false;
+  const auto end_word = [&] {
+    if (!word.empty()) words.push_back(lower(word));
+    word.clear();
+  };
+  const auto end_piece = [&] {
+    end_word();
+    if (!joined.empty()) words.push_back(lower(joined));
+    joined.clear();
+  };
+  for (const char c : stem) {
+    const bool is_upper = c >= 'A' && c <= 'Z', is_letter = is_upper || (c >= 'a' && c <= 'z');
+    if (!is_letter) {
+      end_piece();
+    } else {
+      if (is_upper && was_lower) end_word();
+      word += c, joined += c;
+    }
+    was_lower = is_letter && !is_upper;
+  }
+  end_piece();
+  return words;
+}
+
+/// Words of planes in file names besides those that channels are called by.
+std::string plane_of_word(const std::string& word) {
+  static const std::vector<std::pair<const char*, const char*>> more = {
+      {"colour", "color"}, {"rough", "roughness"}, {"zbuffer", "depth"}};
+  for (const auto& [name, plane] : more)
+    if (word == name) return plane;
+  constexpr size_t shortest = 2;  // "n", "p" and "c" end many names
+  if (word.size() < shortest) return "";
+  for (const channel_names::Spelling& spelling : channel_names::spellings())
+    if (spelling.layer == word) return spelling.plane;
+  return "";
+}
+
+bool is_named_for_disparities(const fs::path& file) {
+  const std::vector<std::string> words = words_in(file.stem().string());
+  return std::any_of(words.begin(), words.end(),
+                     [](const std::string& word) { return word == "disp" || word == "disparity"; });
+}
+
+/// States inverse depth for a file whose name says so.
+void take_name_of_depth(const fs::path& file, ReadOptions& options, std::vector<std::string>& notes) {
+  if (options.depth != DepthConvention::automatic || !is_named_for_disparities(file)) return;
+  options.depth = DepthConvention::inverse;
+  notes.push_back(fmt::format("depth: {} is taken as inverse, since its name speaks of disparities; {} says otherwise",
+                              file.filename().string(), option("depth", "z")));
+}
+
+/// The number of the frame that a file's name ends in, put into the pattern of another plane's files.
+fs::path with_number_of(const fs::path& frame, const fs::path& file) {
+  if (!FramePattern::is_pattern(file.string())) return file;
+  const std::string stem = frame.stem().string();
+  const size_t last = stem.find_last_of("0123456789");
+  if (last == std::string::npos)
+    throw Error("{}: has a place for a frame's number, and {} has no number", file.string(), frame.filename().string());
+  size_t first = last;
+  constexpr size_t longest = 9;
+  while (first > 0 && std::isdigit((unsigned char)stem[first - 1]) && last - first + 1 < longest) --first;
+  return FramePattern(file.string(), "").path_of(std::stoi(stem.substr(first, last - first + 1)));
+}
+
+bool is_exr(const fs::path& path) {
+  ExrInput stream(path);
+  char magic[4] = {};
+  if (stream.size() >= 4) stream.read(magic, 4);
+  return std::memcmp(magic, "\x76\x2f\x31\x01", 4) == 0;
+}
+
+/// All channels of an EXR of one part, as they are.
+void add_exr(const fs::path& path, const ReadOptions& options, Imf::Header& header, Composed& composed) {
+  ExrInput stream(path);
+  guarded(path, [&] {
+    check_headers(path, stream, options.most_pixels);
+    Imf::MultiPartInputFile file(stream);
+    check_parts(path, file, options.most_pixels);
+    if (file.parts() != 1)
+      throw Error("{}: has {} parts, and planes of other files are added to a file of one part alone", path.string(),
+                  file.parts());
+    header = file.header(0);
+    const Imath::Box2i box = header.dataWindow();
+    check_plausible(path, header, stream.size());
+    Imf::FrameBuffer buffer;
+    std::vector<NamedChannel> channels;
+    const int width = box.max.x - box.min.x + 1, height = box.max.y - box.min.y + 1;
+    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
+      channels.push_back({channel.name(), Channel(Layout(width, height), 0.0f)});
+    for (NamedChannel& channel : channels) {
+      const size_t row = size_t(channel.channel.layout().pitch) * sizeof(float);
+      buffer.insert(channel.name,
+                    Imf::Slice::Make(Imf::FLOAT, channel.channel.row(0), box.min, width, height, sizeof(float), row));
+    }
+    Imf::InputPart part(file, 0);
+    part.setFrameBuffer(buffer);
+    part.readPixels(box.min.y, box.max.y);
+    add_channels(std::move(channels), path.string(), composed);
+  });
+}
+
+/// The plane of an EXR that holds it under any name, or nothing else: red, green and blue, or the only channel.
+ImageValues plane_of_exr(const std::string& plane, const fs::path& path, long long most_pixels) {
+  ReadOptions options;
+  options.only_looks = options.unconverted = true;
+  options.most_pixels = most_pixels;
+  const size_t wanted = plane_kind(plane).components.size();
+  const FrameFile named(path, options);
+  if (!contains(named.common_planes(), plane)) {
+    const std::vector<std::string> all = named.all_channels();
+    const bool has_colours = contains(all, "R") && contains(all, "G") && contains(all, "B");
+    if (all.size() != 1 && !has_colours)
+      throw Error("{}: has no plane '{}'; it has {}", path.string(), plane, enumerate(all));
+    options.channels[plane] = wanted == 3 ? "R,G,B" : all.size() == 1 ? all.front() : "R";
+  }
+  Frame frame = FrameFile(path, options).read({plane});
+  ImageValues image;
+  image.type = "float32";
+  if (!frame.views.front().planes.count(plane)) throw Error("{}: its plane '{}' cannot be read", path.string(), plane);
+  image.channels = std::move(frame.views.front().planes.at(plane).channels);
+  return image;
+}
+
+ImageValues only_image(const std::string& plane, const fs::path& file, const ReadOptions& options) {
+  std::vector<ImageValues> images = read_images(file, options.most_pixels);
+  if (images.size() == 1) return std::move(images.front());
+  std::vector<std::string> names;
+  for (ImageValues& image : images) {
+    if (plane_in_file_name(image.name) == plane) return std::move(image);
+    names.push_back(image.name);
+  }
+  throw Error("{}: holds the arrays {}, and none is called as {} is; give the file as the frame, and {}", file.string(),
+              enumerate(names), plane, option("plane", plane + "=NAME"));
+}
+
+void add_plane_file(const std::string& plane, const fs::path& file, const ReadOptions& options, Composed& composed) {
+  ImageValues image = is_image_file(file) ? only_image(plane, file, options)
+                      : is_exr(file)
+                          ? plane_of_exr(plane, file, options.most_pixels)
+                          : throw Error("{}: is no image that is read; EXR, {} are", file.string(), image_formats());
+  add_channels(channels_of_plane(plane, std::move(image), words_for(file), options, composed.notes), file.string(),
+               composed);
+}
+
+/// The arrays of the size that depth has, or else that most have.
+void add_arrays(std::vector<ImageValues> images, const fs::path& path, const ReadOptions& options, Composed& composed) {
+  const auto is_depth = [](const ImageValues& image) { return plane_in_file_name(image.name) == "depth"; };
+  const auto area = [](const ImageValues& image) { return (long long)image.layout().width * image.layout().height; };
+  auto leading = std::find_if(images.begin(), images.end(), is_depth);
+  if (leading == images.end())
+    leading =
+        std::max_element(images.begin(), images.end(), [&](const auto& a, const auto& b) { return area(a) < area(b); });
+  const Layout size = leading->layout();
+  const std::string leading_name = printable(leading->name);
+  for (ImageValues& image : images) {
+    if (image.layout() != size) {
+      composed.notes.push_back(fmt::format("{}: the array '{}' of {}x{} is left out: '{}' is {}x{}",
+                                           path.filename().string(), printable(image.name), image.layout().width,
+                                           image.layout().height, leading_name, size.width, size.height));
+      continue;
+    }
+    const std::string name = image.name;
+    add_channels(channels_of_layer(image, words_for(path), options, composed.notes),
+                 fmt::format("{} '{}'", path.string(), name), composed);
+  }
+}
+
+/// An image alone: the plane that its name speaks of, else depth if it has one component, else colour.
+void add_image_alone(const fs::path& path, const ReadOptions& options, Composed& composed) {
+  std::vector<ImageValues> images = read_images(path, options.most_pixels);
+  const std::string file = path.filename().string();
+  if (holds_arrays(path)) return add_arrays(std::move(images), path, options, composed);
+  std::string plane = plane_in_file_name(path);
+  if (plane.empty() && is_named_for_disparities(path)) plane = "depth";
+  if (plane.empty()) {
+    plane = images.front().channels.size() <= 2 ? "depth" : "color";
+    composed.notes.push_back(fmt::format("{}: taken for the {}, since its name says nothing; {} says what it is", file,
+                                         plane == "color" ? "colours" : "depth",
+                                         option("plane-file", "PLANE=" + file)));
+  }
+  add_channels(channels_of_plane(plane, std::move(images.front()), words_for(path), options, composed.notes),
+               path.string(), composed);
+}
+
+/// A file in memory, with the header's attributes.
+int file_in_memory(Imf::Header header, const Composed& composed, const fs::path& path) {
+  const int descriptor = ::memfd_create("frame", MFD_CLOEXEC);
+  if (descriptor < 0) throw Error("{}: cannot be held in memory: {}", path.string(), std::strerror(errno));
+  try {
+    header.compression() = Imf::NO_COMPRESSION;
+    header.erase("tiles");
+    header.erase("type");
+    header.channels() = Imf::ChannelList();
+    Imf::FrameBuffer buffer;
+    const Imath::V2i origin = header.dataWindow().min;
+    for (const NamedChannel& named : composed.channels) {
+      header.channels().insert(named.name, Imf::Channel(Imf::FLOAT));
+      const size_t row = size_t(named.channel.layout().pitch) * sizeof(float);
+      buffer.insert(named.name, Imf::Slice::Make(Imf::FLOAT, named.channel.row(0), origin, composed.width,
+                                                 composed.height, sizeof(float), row));
+    }
+    ExrOutput stream(descriptor, path.string());
+    {
+      Imf::OutputFile file(stream, header);
+      file.setFrameBuffer(buffer);
+      file.writePixels(composed.height);
+    }
+    stream.finish();
+  } catch (...) {
+    ::close(descriptor);
+    throw;
+  }
+  return descriptor;
+}
+
+}  // namespace
+
+std::string plane_in_file_name(const fs::path& file) {
+  const std::vector<std::string> words = words_in(file.stem().string());
+  for (auto word = words.rbegin(); word != words.rend(); ++word)
+    if (const std::string plane = plane_of_word(*word); !plane.empty()) return plane;
+  return "";
+}
+
+std::unique_ptr<ExrInput> open_input(const fs::path& path, ReadOptions& options, std::vector<std::string>& notes) {
+  if (std::error_code unknown; fs::is_directory(path, unknown))
+    throw Error("{}: is a folder; {}", path.string(), advice_on_folder(path));
+  const bool is_image = is_image_file(path);
+  if (is_image && !options.plane_files.count("depth")) take_writer(path, options, notes);
+  if (!is_image && options.plane_files.empty()) return std::make_unique<ExrInput>(path);
+  const auto own_depth = options.plane_files.find("depth");
+  if (own_depth != options.plane_files.end() || is_image)
+    take_name_of_depth(own_depth != options.plane_files.end() ? own_depth->second : path, options, notes);
+  Composed composed{{}, 0, 0, {}, notes};
+  Imf::Header header(1, 1);
+  const auto is_frame = [&](const auto& entry) { return entry.second == path; };
+  const bool has_own_plane = std::any_of(options.plane_files.begin(), options.plane_files.end(), is_frame);
+  const bool is_exr_frame = !is_image && !has_own_plane;
+  if (is_exr_frame)
+    add_exr(path, options, header, composed);
+  else if (!has_own_plane)
+    add_image_alone(path, options, composed);
+  for (const auto& [plane, file] : options.plane_files) check_plane_name(plane, "plane-file");
+  for (const auto& [plane, file] : options.plane_files)
+    add_plane_file(plane, with_number_of(path, file), options, composed);
+  if (!is_exr_frame) header = Imf::Header(composed.width, composed.height);
+  return guarded(path, [&] { return std::make_unique<ExrInput>(path, file_in_memory(header, composed, path)); });
+}
+
+}  // namespace gloam
