@@ -1,0 +1,29 @@
+// What stored depth means, told by plane surfaces: only with the right meaning they are plane.
+#pragma once
+
+#include "gloam/camera.h"
+#include "gloam/frame.h"
+#include "normalise/stored_depth.h"
+
+namespace gloam {
+
+/// Along a row or a column of a perspective image, 1/z of a plane is a linear function of the pixel. So is what is stored, if that is 1/z or a
+/// linear function of it (normalised device depth, disparities), and 1/z is the secant of the ray's angle over its length. Each segment of
+/// a row or a column that is much straighter by one of these than by the others speaks for that one.
+struct Straightness {
+  enum Meaning { unknown, planar, along_ray, of_inverse };
+  long long segments[4] = {};  ///< that speak for each meaning
+
+  /// The meaning that at least `fewest` segments speak for, and at least four fifths of all.
+  Meaning meaning() const;
+  long long of(Meaning meaning) const { return segments[meaning]; }
+  long long all() const { return segments[planar] + segments[along_ray] + segments[of_inverse]; }
+  static constexpr long long fewest = 24;
+};
+
+/// Looks at some thousand segments. `depth`: values of one sign, as stored; `window`: where the rows lie in the camera's image. Of an
+/// orthographic camera nothing is told.
+Straightness straightness_of(const DepthRows& depth, float sign, const Background& background, const Window& window,
+                             const Camera& camera);
+
+}  // namespace gloam
