@@ -18,7 +18,7 @@ struct Spelling {
 constexpr Spelling spellings[] = {
     {"camera", "", "ReadOptions::camera_file"},
     {"fov", "", "ReadOptions::fov_degrees"},
-    {"depth", "", "ReadOptions::depth"},
+    {"depth", "depth_is", "ReadOptions::depth"},
     {"near", "", "ReadOptions::near"},
     {"far", "", "ReadOptions::far"},
     {"background", "", "ReadOptions::background"},

@@ -156,6 +156,9 @@ std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& wi
       look_at_depth(rows_of(depth), background_of(stated.background, stated.far ? stated.far : camera.far),
                     stated.background.has_value(), "; " + option("background") + " says otherwise");
   assumed.insert(assumed.end(), found.notes.begin(), found.notes.end());
+  if (stated.near)
+    assumed.push_back(fmt::format("depth: {} has no effect; {} and {} need it, and other depth is a distance already",
+                                  option("near"), option("depth", "ndc"), option("depth", "reversed")));
   clean_depth(depth, found.sign, found.background);
   if (stated.convention == DepthConvention::ray) {
     if (!camera.orthographic) ray_to_depth(depth, window, camera);
@@ -163,8 +166,7 @@ std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& wi
   }
   if (found.sign < 0) return "negative z";
   if (stated.convention == DepthConvention::automatic)
-    assumed.push_back(fmt::format("depth: taken as planar distance along the viewing axis{}; {} says otherwise",
-                                  found.is_in_unit_interval ? ", though all of it lies in 0..1" : "", option("depth")));
+    assumed.push_back(note_on_planar_depth(found.is_in_unit_interval));
   return "z";
 }
 

@@ -8,7 +8,7 @@ from . import _files, _gloam, _words
 from ._gloam import Frame
 
 #: Keywords of how a file is read.
-_READING = ("camera", "fov", "depth", "near", "far", "background", "views", "channels") + _words.NORMALS
+_READING = ("camera", "fov", "depth", "views", "channels") + _words.DEPTH + _words.NORMALS
 
 
 def _file(name, value, folder):
@@ -32,7 +32,7 @@ def pick(frame, *, budget=None, error=None, by="rmse", truth=None, techniques=No
     techniques: these only, a list of names; default: all that make the truth's effect, without a truth those of ambient occlusion.
     radius: scene units; default: the truth's, else the scene's own, else made from the frame.  rays: per pixel, for a truth that is traced.
     rounds: each times every finalist once, in turn.  time: seconds for everything but tracing, the likeliest settings first; None: for all.
-    device, camera, fov, depth, near, far, background, views, channels, normal_space, normal_range, normal_axes: as for gloam.read, of a path.
+    device, camera, fov, depth_is, near, far, background, views, channels, normals_are, normal_space, normal_range, normal_axes: as for gloam.read, of a path.
 
     The keys are those of `gloam pick --json`: "technique", "preset", "resolution", "ms", "rmse", "ssim", "device", "error_to", "by",
     "finalists" (a list of dicts), "skipped", "left_out", "radius", "radius_from" and "notes".

@@ -16,6 +16,9 @@ struct StatedDepth {
   std::optional<double> near, far;  ///< for NDC and reversed depth, and the far plane as background
   std::optional<float> background;  ///< depth that means background, instead of 1e10 and more
 };
+inline bool states_anything(const StatedDepth& depth) {
+  return depth.convention != DepthConvention::automatic || depth.near || depth.far || depth.background;
+}
 
 enum class NormalSpace { automatic, view, world };
 
