@@ -1,7 +1,9 @@
 #include "gloam/arrays.h"
 
 #include <algorithm>
+#include <cmath>
 #include <new>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -42,6 +44,23 @@ Plane empty_plane(const std::string& name, const Layout& layout) {
   Plane plane{name, {}};
   for (size_t i = 0; i < plane_kind(name).components.size(); ++i) plane.channels.emplace_back(layout);
   return plane;
+}
+
+/// A sentence on a camera that is likely in another unit than the image's pixels; empty if it is not.
+std::string note_on_intrinsics(const Camera& camera, int width, int height) {
+  const bool is_outside = camera.cx < 0 || camera.cy < 0 || camera.cx > width || camera.cy > height;
+  if (is_outside)
+    return fmt::format(
+        "camera: its principal point ({:g}, {:g}) lies outside of the image of {} x {} pixels; fx, fy, cx and cy are "
+        "in "
+        "pixels of this image",
+        camera.cx, camera.cy, width, height);
+  constexpr double widest = 170;
+  const double degrees = std::atan(width / 2.0 / camera.fx) * 360 / std::numbers::pi;
+  if (camera.orthographic || degrees <= widest) return "";
+  return fmt::format(
+      "camera: with fx {:g} the image of {} x {} pixels sees {:.1f} degrees; fx, fy, cx and cy are in pixels",
+      camera.fx, width, height, degrees);
 }
 
 /// Copies a row of an array to that of a plane.
@@ -112,6 +131,8 @@ View view_from(const Arrays& arrays, LightCounts& light, std::vector<std::string
   const std::optional<Channel> planar = stated_depth(arrays, notes);
   const StoredSurfaces stored = stored_surfaces(arrays, planar ? &*planar : nullptr);
   add_new(notes, stored.notes);
+  if (const std::string note = note_on_intrinsics(arrays.camera, arrays.width, arrays.height); !note.empty())
+    notes.push_back(note);
   if (!stored.are_normals_used) {
     std::erase_if(sources, [](const auto& source) { return source.first->name == "normal"; });
     view.planes.erase("normal");

@@ -26,6 +26,18 @@ class Camera:
     def __init__(self, fx: float, fy: float, cx: float, cy: float, *, orthographic: bool = False, near: Optional[float] = None,
                  far: Optional[float] = None, camera_to_world: Optional[numpy.typing.ArrayLike] = None,
                  world_to_camera: Optional[numpy.typing.ArrayLike] = None) -> None: ...
+    @staticmethod
+    def from_projection(projection: numpy.typing.ArrayLike, convention: str, width: int, height: int, *,
+                        camera_to_world: Optional[numpy.typing.ArrayLike] = None,
+                        world_to_camera: Optional[numpy.typing.ArrayLike] = None) -> "Camera": ...
+    @staticmethod
+    def from_intrinsics(K: numpy.typing.ArrayLike, *, pixel_centre: float = 0.5, near: Optional[float] = None, far: Optional[float] = None,
+                        camera_to_world: Optional[numpy.typing.ArrayLike] = None,
+                        world_to_camera: Optional[numpy.typing.ArrayLike] = None) -> "Camera": ...
+    @staticmethod
+    def from_fov(degrees: float, width: int, height: int, *, axis: str = "horizontal", near: Optional[float] = None,
+                 far: Optional[float] = None, camera_to_world: Optional[numpy.typing.ArrayLike] = None,
+                 world_to_camera: Optional[numpy.typing.ArrayLike] = None) -> "Camera": ...
     @property
     def fx(self) -> float: ...
     @property
