@@ -11,6 +11,10 @@ right, y up, z towards the eye. A radius, and every other length, is in the unit
 Whatever cannot be done raises `gloam.Error`, whose text is one sentence: what is wrong, the value, what is allowed. docs/python.md has the rest.
 """
 
+from . import _built
+
+_built.check()
+
 from . import _gloam
 from ._auto import AutoResult, auto
 from ._compare import compare
