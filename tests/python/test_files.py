@@ -111,7 +111,7 @@ def test_notes_are_told(tmp_path):
     (lambda folder: gloam.read(folder / "whole.exr", views=["left"]), "left"),
     (lambda folder: gloam.read(folder / "whole.exr", camera=folder / "none.json"), "none.json"),
     (lambda folder: gloam.read(folder / "whole.exr", channels={"depth": 3}), "channels"),
-    (lambda folder: gloam.write(folder / "out.png", {"ao": numpy.ones((4, 4), numpy.float32)}), "name it with .exr"),
+    (lambda folder: gloam.write(folder / "out.jpg", {"ao": numpy.ones((4, 4), numpy.float32)}), "name it with .exr or .png"),
     (lambda folder: gloam.write(folder / "no" / "out.exr", {"ao": numpy.ones((4, 4), numpy.float32)}), "out.exr"),
     (lambda folder: gloam.write(folder, {"ao": numpy.ones((4, 4), numpy.float32)}), ".exr"),
     (lambda folder: gloam.write(folder / "out.exr", {"ao": numpy.ones((4, 4), complex)}), "has the dtype complex128"),

@@ -238,7 +238,7 @@ def auto(frame: Union[Frame, Path, _Sequence[Path], None] = None, *, budget: Opt
          settings: Optional[Dict[str, Setting]] = None, depth_is: Optional[str] = None, near: Optional[float] = None,
          far: Optional[float] = None, background: Optional[float] = None, normals_are: Optional[str] = None,
          normal_space: Optional[str] = None, normal_range: Optional[str] = None, normal_axes: Optional[str] = None, **keywords: Any) -> AutoResult: ...
-def pick(frame: Union[Frame, Path], *, budget: Optional[float] = None, error: Optional[float] = None, by: str = "rmse",
+def pick(frame: Union[Frame, Path, None] = None, *, budget: Optional[float] = None, error: Optional[float] = None, by: str = "rmse",
          truth: Union[Frame, Path, _Sequence[Union[Frame, Path]], None] = None, techniques: Union[str, List[str], None] = None,
          radius: Optional[float] = None, rays: int = 256, rounds: int = 9, time: Optional[float] = 60,
          device: Union[Device, str, None] = None, **reading: Any) -> Dict[str, Any]: ...
@@ -247,7 +247,7 @@ def read(file: Union[Path, _Sequence[Path]], *, camera: Union[Camera, Path, None
          background: Optional[float] = None, normals_are: Optional[str] = None, normal_space: Optional[str] = None, normal_range: Optional[str] = None, normal_axes: Optional[str] = None,
          views: Union[str, List[str], None] = None, channels: Optional[Dict[str, str]] = None,
          planes: Union[str, List[str], None] = None, as_stored: bool = False) -> Frame: ...
-def write(path: Path, what: Union[Frame, Result, Mapping[str, Plane]], *, camera: Union[Camera, List[Camera], None] = None,
+def write(path: Path, what: Union[Frame, Result, Mapping[str, Plane], Any], *, plane: Optional[str] = None, camera: Union[Camera, List[Camera], None] = None,
           fov: Optional[float] = None, compression: str = "zip", half: bool = False) -> None: ...
 def compare(test: Image, reference: Image, *, plane: Optional[str] = None, mask: Optional[numpy.typing.NDArray[Any]] = None,
             frame: Union[Frame, Path, None] = None, exposure: Optional[float] = None) -> Dict[str, Any]: ...

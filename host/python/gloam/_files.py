@@ -1,6 +1,7 @@
 """read, write and Sequence: frames in EXR files."""
 
 import collections
+import os
 
 import numpy
 
@@ -52,9 +53,35 @@ def image_of_result(result):
     return _image(listed, result.views)[0]
 
 
-def write(path, what, *, camera=None, fov=None, compression="zip", half=False):
-    """Writes an EXR file, as the command `gloam` does. It is there whole or not at all.
+def _is_picture(path):
+    return os.path.splitext(os.fsdecode(path))[1].lower() == ".png"
 
+
+def _write_picture(target, what, plane):
+    """A PNG of one plane, by default of the first; of several views one for each."""
+    teller = None
+    if isinstance(what, Frame):
+        image = what
+    elif isinstance(what, _run.Result):
+        image, teller = image_of_result(what), what.frame
+    elif isinstance(what, dict) and what:
+        image, _ = _image(what)
+    elif _arrays.is_array(what):
+        array = _arrays.image("write: the array", what)
+        plane = plane or ("ao" if array.ndim == 2 else "color")
+        image, _ = _image({plane: array[..., :3] if array.ndim == 3 and plane == "color" else array})
+    else:
+        raise _words.refusal(f"write: {type(what).__name__} cannot be drawn; an array, a result of gloam.run, a gloam.Frame or a dict of arrays can")
+    listed = list(what) if isinstance(what, dict) else image.planes
+    _words.note(_gloam.write_pictures(target, image, _words.text("plane", plane) or listed[0], teller), stacklevel=3)
+
+
+def write(path, what, *, plane=None, camera=None, fov=None, compression="zip", half=False):
+    """Writes an EXR file, or a picture, PNG, as the command `gloam` does. It is there whole or not at all.
+
+    path: of an EXR file; or of a picture, "ao.png", which shows one plane for people: AO and other single components as grey from 0 to 1, normals as
+        0.5 + 0.5 n, colour through the sRGB curve, background hatched where a depth tells it. plane: which one; default: the first. Of
+        several views there is a picture for each, "ao.left.png". A picture may be of an array too.
     what: a gloam.Frame; a result of gloam.run, with the depth and the camera of its frame, as `gloam run -o` writes it; or a dict of arrays by
         the names of their planes, (height, width) or (height, width, components), in the layouts and types that gloam.run takes, or lists.
     camera, fov: as for gloam.run, for a dict.
@@ -64,6 +91,13 @@ def write(path, what, *, camera=None, fov=None, compression="zip", half=False):
     """
     target = _words.path("path", path)
     compression = _words.word("compression", compression)
+    if _is_picture(target):
+        _write_picture(target, what, plane)
+        return
+    if plane is not None:
+        raise _words.refusal("plane: chooses what a picture shows, and an EXR file has all planes; leave it out, or name a .png")
+    if _arrays.is_array(what):
+        raise _words.refusal("write: an array has no name in an EXR file; give a dict such as {'ao': array}, or name a .png")
     if isinstance(what, Frame):
         _gloam.write(target, what, None, [], {}, {}, compression, bool(half))
     elif isinstance(what, _run.Result):
