@@ -212,6 +212,10 @@ void add_frames(py::module_& module) {
   module.def("camera_with_fov", &camera_with_fov);
   module.def("known_planes", &known_planes);
   module.def("components", [](const std::string& plane) { return plane_kind(plane).components.size(); });
+  module.def("is_unit_interval", [](const std::string& plane) {
+    const PlaneKind kind = plane_kind(plane);
+    return kind.meaning == PlaneKind::unit_interval;
+  });
   module.def("is_stack", [](const std::string& plane) { return is_stack(plane); });
 }
 

@@ -183,6 +183,42 @@ def test_what_is_no_plane_is_told_with_the_call_that_helps(change, sentence, sce
     assert sentence in str(raised.value) and "\n" not in str(raised.value)
 
 
+@pytest.mark.parametrize("words, sentence", [
+    (dict(normal=numpy.full((40, 60, 3), 128, numpy.uint8)), "plane 'normal' has the dtype uint8, as a picture of normals has it; give array / 255 and normals_are='unsigned'"),
+    (dict(roughness=numpy.full((40, 60), 200, numpy.uint8)), "plane 'roughness' has the dtype uint8 and values up to 200, where 1 is the most; give array / 255"),
+    (dict(albedo=numpy.full((40, 60, 3), 9000, numpy.int32)), "values up to 9000, where 1 is the most; give array / 65535"),
+    (dict(camera=numpy.eye(4)), "camera is of type ndarray; a gloam.Camera is allowed: gloam.Camera.from_projection(matrix, 'opengl', width, height)"),
+    (dict(camera=numpy.eye(3)), "a gloam.Camera is allowed: gloam.Camera.from_intrinsics(K)"),
+    (dict(frame=numpy.zeros((40, 60))), "a gloam.Frame, a path, or arrays by keyword are allowed, depth=array"),
+])
+def test_what_is_likely_meant_is_told(words, sentence, scene):
+    with pytest.raises(gloam.UsageError) as raised:
+        gloam.run("gtao", **{"depth": scene["depth"], "camera": scene["camera"], "radius": 1.0, **words})
+    assert sentence in str(raised.value), str(raised.value)
+
+
+def test_pictures_of_bytes_are_not_compared_with_values_up_to_one(scene):
+    made = ao(scene)["ao"]
+    with pytest.raises(gloam.UsageError, match="test has the dtype uint8 and values up to 255, where 1 is the most; give array / 255"):
+        gloam.compare((255 * made).astype(numpy.uint8), made)
+
+
+def test_none_and_numbers_without_axes(scene):
+    expected = ao(scene)["ao"]
+    assert numpy.array_equal(ao(scene, color=None, back_depth=None)["ao"], expected)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        made = gloam.run("gtao", depth=scene["depth"], normal=scene["normal"], camera=scene["camera"], radius=numpy.array(1.0))
+    assert numpy.array_equal(made["ao"], expected)
+
+
+def test_notes_on_the_radius_name_the_keyword(scene):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        notes = gloam.run("gtao", depth=scene["depth"], camera=scene["camera"], radius=5000).notes
+    assert any("; radius=" in note and "--" not in note for note in notes), notes
+
+
 def test_normals_of_two_components_are_told(scene):
     with pytest.raises(gloam.Error, match=r"plane 'normal' has the shape \(40, 60, 2\); \(height, width, 3\) or \(3, height, width\) is allowed"):
         gloam.run("gtao", depth=scene["depth"], normal=scene["normal"][..., :2], camera=scene["camera"], radius=1.0)

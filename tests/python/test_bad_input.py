@@ -41,7 +41,7 @@ def refused(call, sentence, kind=gloam.Error):
     (lambda z: z[:0], "1 to 65536 pixels each way are allowed"),
     (lambda z: numpy.ma.masked_greater(z, 9), "plane 'depth' is a masked array"),
     (lambda z: z.tolist(), "plane 'depth' is of type list; an array is allowed, such as numpy.asarray(values, numpy.float32)"),
-    (lambda z: None, "plane 'depth' is of type NoneType"),
+    (lambda z: None, "there is neither a frame nor an array"),
     (lambda z: numpy.zeros((2, 70000), numpy.float32), "1 to 65536 pixels each way"),
 ])
 def test_arrays(change, sentence, depth, camera):

@@ -67,9 +67,9 @@ def test_pictures_that_show_nothing_are_told(tmp_path):
     with pytest.warns(gloam.Note, match="of the pixels of 'depth' are above 1, and white: a picture shows 0 to 1"):
         gloam.write(tmp_path / "depth.png", frame, plane="depth")
     with pytest.warns(gloam.Note, match="are above 1, and white"):
-        gloam.write(tmp_path / "bytes.png", numpy.full((8, 8), 255, numpy.uint8))
+        gloam.write(tmp_path / "bytes.png", numpy.full((8, 8), 255.0))
     for what, words, sentence in [(frame, {"plane": "nromal"}, "no plane 'nromal' (did you mean 'normal'?)"), ({}, {}, "dict cannot be drawn"),
-                                  (3, {}, "int cannot be drawn"), (numpy.zeros(4), {}, "write: the array has the shape (4,)")]:
+                                  (numpy.full((8, 8), 255, numpy.uint8), {}, "write: the array has the dtype uint8 and values up to 255"), (3, {}, "int cannot be drawn"), (numpy.zeros(4), {}, "write: the array has the shape (4,)")]:
         with pytest.raises(gloam.UsageError) as raised:
             gloam.write(tmp_path / "none.png", what, **words)
         assert sentence in str(raised.value)

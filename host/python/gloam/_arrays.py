@@ -58,6 +58,12 @@ def _of_library(what, value):
     raise _words.refusal(f"{what}: NumPy cannot read this {_type_of(value)} ({said}); convert it first: {call}")
 
 
+def plain(value):
+    """A number that is an array without axes, of any library, as a number; any other value as it is."""
+    is_number = getattr(value, "ndim", None) == 0 and hasattr(value, "item") and not isinstance(value, numpy.generic)
+    return value.item() if is_number else value
+
+
 def on_host(what, value):
     """The NumPy array of numbers behind a value. `what`: for messages, "plane 'depth'"."""
     if not is_array(value):
@@ -115,9 +121,21 @@ def _refuse_batch(what, array):
                          "list(array) has one for each view")
 
 
+def _refuse_integers(what, array):
+    """Whole numbers of a picture, where 1 is the most that there can be."""
+    if array.dtype.kind in "iu" and array.size and array.max() > 1:
+        raise _words.refusal(f"{what} has the dtype {array.dtype} and values up to {array.max()}, where 1 is the most; give "
+                             f"array / {255 if array.max() <= 255 else 65535}")
+
+
 def _plane(what, name, value):
     """The array of a plane, and its component too many, if there is one."""
     array = on_host(what, value)
+    if name == "normal" and array.dtype.kind == "u":
+        raise _words.refusal(f"{what} has the dtype {array.dtype}, as a picture of normals has it; give array / {numpy.iinfo(array.dtype).max} and "
+                             "normals_are='unsigned'")
+    if name != "mask" and _gloam.is_unit_interval(name):
+        _refuse_integers(what, array)
     if _gloam.is_stack(name):
         return _as_float(_without_first(array, 3)), None
     components = _gloam.components(name)
@@ -153,6 +171,7 @@ def planes_of_views(of_views, names=None):
 def image(what, value):
     """An image whose plane is not named: (height, width), or (height, width, components) with 3 or 4 of them."""
     array = _without_ones(on_host(what, value))
+    _refuse_integers(what, array)
     if array.ndim == 3 and array.shape[2] not in (3, 4) and array.shape[0] in (3, 4):
         array = numpy.moveaxis(array, 0, 2)
     if array.ndim not in (2, 3):

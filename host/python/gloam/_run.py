@@ -87,6 +87,9 @@ def divided(keywords):
     parameters = {}
     for name, value in keywords.items():
         name = _words.text("keyword", name)
+        value = _arrays.plain(value)
+        if value is None and name in known:
+            continue  # not given
         if name in known and not isinstance(value, (str, bool, int, float, numpy.generic, os.PathLike)):
             planes[name] = value
         elif _is_planes(value):
@@ -142,12 +145,21 @@ def _size(planes):
     return None
 
 
+def _way_to_a_camera(given):
+    """How a matrix becomes a camera, as the end of a sentence."""
+    shape = tuple(getattr(given, "shape", ()))
+    if shape == (4, 4):
+        return ": gloam.Camera.from_projection(matrix, 'opengl', width, height)"
+    return ": gloam.Camera.from_intrinsics(K)" if shape == (3, 3) else ""
+
+
 def _cameras(camera, fov, of_views, several):
     count = len(of_views)
     if camera is not None and fov is not None:
         raise _words.refusal("camera and fov are both given; give one of them")
     if camera is None and fov is None:
-        raise _words.refusal("camera: none is given; give camera=gloam.Camera(fx=..., fy=..., cx=..., cy=...), or fov=DEGREES")
+        raise _words.refusal("camera: none is given; give camera=gloam.Camera(fx=..., fy=..., cx=..., cy=...), gloam.Camera.from_projection(...), or "
+                             "fov=DEGREES")
     if fov is not None:
         size = _size(of_views[0])
         if size is None:
@@ -156,7 +168,8 @@ def _cameras(camera, fov, of_views, several):
     cameras = list(camera) if isinstance(camera, (list, tuple)) else [camera]
     for item in cameras:
         if not isinstance(item, Camera):
-            raise _words.refusal(f"camera is of type {type(item).__name__}; a gloam.Camera is allowed{', or a list of them' if several else ''}")
+            raise _words.refusal(f"camera is of type {type(item).__name__}; a gloam.Camera is allowed{', or a list of them' if several else ''}"
+                                 f"{_way_to_a_camera(item)}")
     if len(cameras) != count:
         raise _words.refusal(f"there are {len(cameras)} cameras and {count} views; give one for each view")
     return cameras
@@ -226,7 +239,7 @@ def frame_for(frame, planes, camera, fov, views, surfaces, read):
         made = read(paths, _words.reading(camera, fov=fov, views=views, **surfaces))
         return made, True, len(made.views) > 1
     if not isinstance(frame, Frame):
-        raise _words.refusal(f"frame is of type {type(frame).__name__}; a gloam.Frame, a path, or arrays by keyword are allowed")
+        raise _words.refusal(f"frame is of type {type(frame).__name__}; a gloam.Frame, a path, or arrays by keyword are allowed{', depth=array' if _arrays.is_array(frame) else ''}")
     for name, value in (("camera", camera), ("fov", fov), ("views", views)):
         if value is not None:
             raise _words.refusal(f"{name}: a gloam.Frame has its own; leave it out, or give it to gloam.read")
