@@ -68,7 +68,7 @@ def test_keywords_of_run_are_neither_planes_nor_parameters():
     from gloam import _gloam, _run
 
     options = {"camera", "fov", "views", "device", "settings", "frame", "technique", "temporal", "path", "resume", "half", "compression", "keep_depth",
-               *_run._OPTIONS}
+               *_run._OPTIONS, *_run._NAMED}
     for technique in gloam.techniques().values():
         # As on the command line, `filter` is the technique that follows; settings={"filter": ...} is the parameter.
         assert options & set(technique.parameters) <= {"filter"}, technique.name
