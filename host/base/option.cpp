@@ -18,7 +18,7 @@ struct Spelling {
 constexpr Spelling spellings[] = {
     {"camera", "", "ReadOptions::camera_file"},
     {"fov", "", "ReadOptions::fov_degrees"},
-    {"depth", "", "ReadOptions::depth"},
+    {"depth", "depth_is", "ReadOptions::depth"},
     {"near", "", "ReadOptions::near"},
     {"far", "", "ReadOptions::far"},
     {"background", "", "ReadOptions::background"},
@@ -62,7 +62,9 @@ std::string name_of_option(std::string_view flag) {
 /// A word as Python has it: in quotes, but for numbers and for capitals that stand for a value.
 std::string in_python(std::string_view word) {
   const bool is_quoted = word.starts_with('\'') || word.starts_with('{');
-  const bool is_plain = std::none_of(word.begin(), word.end(), [](unsigned char c) { return std::islower(c); });
+  const bool is_number = word.find_first_not_of("0123456789.+-e") == std::string_view::npos;
+  const bool is_plain =
+      is_number || std::none_of(word.begin(), word.end(), [](unsigned char c) { return std::islower(c); });
   return is_plain || is_quoted ? std::string(word) : fmt::format("'{}'", word);
 }
 

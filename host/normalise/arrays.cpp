@@ -1,7 +1,9 @@
 #include "gloam/arrays.h"
 
 #include <algorithm>
+#include <cmath>
 #include <new>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -9,6 +11,7 @@
 #include "frame/field_of_view.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
+#include "normalise/depth.h"
 #include "normalise/each_row.h"
 #include "normalise/normalise.h"
 #include "normalise/normals.h"
@@ -43,6 +46,23 @@ Plane empty_plane(const std::string& name, const Layout& layout) {
   return plane;
 }
 
+/// A sentence on a camera that is likely in another unit than the image's pixels; empty if it is not.
+std::string note_on_intrinsics(const Camera& camera, int width, int height) {
+  const bool is_outside = camera.cx < 0 || camera.cy < 0 || camera.cx > width || camera.cy > height;
+  if (is_outside)
+    return fmt::format(
+        "camera: its principal point ({:g}, {:g}) lies outside of the image of {} x {} pixels; fx, fy, cx and cy are "
+        "in "
+        "pixels of this image",
+        camera.cx, camera.cy, width, height);
+  constexpr double widest = 170;
+  const double degrees = std::atan(width / 2.0 / camera.fx) * 360 / std::numbers::pi;
+  if (camera.orthographic || degrees <= widest) return "";
+  return fmt::format(
+      "camera: with fx {:g} the image of {} x {} pixels sees {:.1f} degrees; fx, fy, cx and cy are in pixels",
+      camera.fx, width, height, degrees);
+}
+
 /// Copies a row of an array to that of a plane.
 void fill_row(Plane& plane, std::span<const float> values, int y) {
   const size_t components = plane.channels.size();
@@ -67,16 +87,34 @@ void fill_row(Plane& plane, std::span<const float> values, int y) {
   }
 }
 
-/// What the depth of a view, if it has one, and its normals are found to be.
-StoredSurfaces stored_surfaces(const Arrays& arrays) {
+/// Planar depth of a depth that something is stated of. Nothing without a depth, or where nothing is stated.
+std::optional<Channel> stated_depth(const Arrays& arrays, std::vector<std::string>& notes) {
+  const auto depth = arrays.planes.find("depth");
+  if (depth == arrays.planes.end() || !states_anything(arrays.depth)) return {};
+  const auto given = arrays.planes.find("alpha");
+  std::optional<Plane> alpha;
+  if (given != arrays.planes.end()) alpha = plane_from("alpha", arrays.width, arrays.height, given->second);
+  StatedDepth stated = arrays.depth;
+  if (stated.convention == DepthConvention::automatic)
+    stated.convention = DepthConvention::z;  // as arrays are asked for
+  Plane plane = plane_from("depth", arrays.width, arrays.height, depth->second);
+  Channel& channel = plane.channels.front();
+  to_view_depth(channel, alpha ? &alpha->channels.front() : nullptr, {0, 0, arrays.width, arrays.height}, arrays.camera,
+                stated, notes);
+  return std::move(channel);
+}
+
+/// What the depth of a view, if it has one, and its normals are found to be. `planar`: the depth, where it had to be converted.
+StoredSurfaces stored_surfaces(const Arrays& arrays, const Channel* planar) {
   const auto depth = arrays.planes.find("depth"), normal = arrays.planes.find("normal");
   if (depth == arrays.planes.end()) return {.normals = plain_form(arrays.normals)};
   const float* const values = depth->second.data();
-  const DepthRows rows{[&](int y) { return values + size_t(y) * size_t(arrays.width); }, arrays.width, arrays.height};
+  DepthRows rows{[&](int y) { return values + size_t(y) * size_t(arrays.width); }, arrays.width, arrays.height};
+  if (planar) rows = rows_of(*planar);
   std::optional<NormalSamples> samples;
   if (normal != arrays.planes.end()) samples.emplace(Layout(arrays.width, arrays.height)).take(normal->second.data());
   return look_at_surfaces(rows, samples ? &*samples : nullptr, {0, 0, arrays.width, arrays.height}, arrays.camera,
-                          arrays.normals);
+                          {arrays.normals, arrays.depth});
 }
 
 /// Values are copied and cleaned row by row: each is then taken from memory once.
@@ -90,24 +128,34 @@ View view_from(const Arrays& arrays, LightCounts& light, std::vector<std::string
     check_array(name, values, arrays.width, arrays.height, plane_kind(name).components.size());
     sources.emplace_back(&view.planes.emplace(name, empty_plane(name, layout)).first->second, values);
   }
-  const StoredSurfaces stored = stored_surfaces(arrays);
-  notes = stored.notes;
+  const std::optional<Channel> planar = stated_depth(arrays, notes);
+  const StoredSurfaces stored = stored_surfaces(arrays, planar ? &*planar : nullptr);
+  add_new(notes, stored.notes);
+  if (const std::string note = note_on_intrinsics(arrays.camera, arrays.width, arrays.height); !note.empty())
+    notes.push_back(note);
   if (!stored.are_normals_used) {
     std::erase_if(sources, [](const auto& source) { return source.first->name == "normal"; });
     view.planes.erase("normal");
   }
   const auto fill = [&](Plane& plane, std::span<const float> values, int y) {
-    fill_row(plane, values, y);
     std::vector<Channel>& to = plane.channels;
+    const bool is_converted = planar && plane.name == "depth";
+    if (is_converted)
+      std::copy_n(planar->row(y), layout.width, to[0].row(y));
+    else
+      fill_row(plane, values, y);
     if (plane.name == "depth") clean_depth_row(to[0].row(y), layout.width, stored.depth.sign, stored.depth.background);
     if (plane.name == "normal" && stored.normals != NormalForm())
       bring_to_view_space(to[0].row(y), to[1].row(y), to[2].row(y), layout.width, stored.normals, *view.camera);
   };
   const Plane *depth = view.find("depth"), *normal = view.find("normal");
-  normalise_while_filling(view, layout, [&](int y) {
-    for (const auto& [plane, values] : sources) fill(*plane, values, y);
-    light.add_row(view, y, depth ? depth->channels.front().row(y) : nullptr);
-  });
+  normalise_while_filling(
+      view, layout,
+      [&](int y) {
+        for (const auto& [plane, values] : sources) fill(*plane, values, y);
+        light.add_row(view, y, depth ? depth->channels.front().row(y) : nullptr);
+      },
+      arrays.depth.background);
   if (depth && normal) {
     const long long missing = count_missing_normals(*normal, depth->channels.front());
     if (std::string note = note_on_missing_normals(missing); !note.empty()) notes.push_back(std::move(note));

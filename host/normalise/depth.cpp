@@ -202,8 +202,7 @@ std::string note_on_planar(const Straightness& straightness, bool is_in_unit_int
           is_in_unit_interval ? "normalised device depth" : "a disparity", option("depth", "ndc"),
           option("depth", "reversed"), option("near"), option("depth", "inverse"));
     default:
-      return fmt::format("{}{}; {} says otherwise", taken, is_in_unit_interval ? ", though all of it lies in 0..1" : "",
-                         option("depth"));
+      return note_on_planar_depth(is_in_unit_interval);
   }
 }
 
@@ -224,6 +223,9 @@ std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& wi
       look_at_depth(rows_of(depth), background_of(stated.background, is_mapped ? std::nullopt : far),
                     stated.background.has_value(), "; " + option("background") + " says otherwise");
   assumed.insert(assumed.end(), found.notes.begin(), found.notes.end());
+  if (stated.near)
+    assumed.push_back(fmt::format("depth: {} has no effect; {} and {} need it, and other depth is a distance already",
+                                  option("near"), option("depth", "ndc"), option("depth", "reversed")));
   const bool is_free = stated.convention == DepthConvention::automatic && !stated.offset;
   const Straightness straightness =
       is_free ? straightness_of(rows_of(depth), found.sign, found.background, window, camera) : Straightness{};

@@ -158,9 +158,11 @@ void normalise(Frame& frame, std::optional<float> background) {
   add_new(frame.assumed, light.notes());
 }
 
-void normalise_while_filling(View& view, const Layout& layout, const std::function<void(int y)>& fill) {
+void normalise_while_filling(View& view, const Layout& layout, const std::function<void(int y)>& fill,
+                             std::optional<float> background) {
   std::vector<CleanRow> steps = {fill};
-  for (CleanRow& clean : cleaners_of(view, background_in(view, {}), false, true)) steps.push_back(std::move(clean));
+  for (CleanRow& clean : cleaners_of(view, background_in(view, background), false, true))
+    steps.push_back(std::move(clean));
   clean_rows(steps, layout);
   fill_paddings(view);
 }

@@ -15,6 +15,7 @@ void normalise_planes(Frame& frame, std::optional<float> background, bool as_sto
 
 /// `normalise` of one view whose values are still to be made: `fill(y)` makes those of a row, which is then cleaned while it is near. All
 /// planes have this layout.
-void normalise_while_filling(View& view, const Layout& layout, const std::function<void(int y)>& fill);
+void normalise_while_filling(View& view, const Layout& layout, const std::function<void(int y)>& fill,
+                             std::optional<float> background = {});
 
 }  // namespace gloam

@@ -38,6 +38,13 @@ bool is_step(double value, std::bitset<256>& levels) {
 void try_steps(const float* row, int width, ColourCounts& counts) {
   const int stride = std::max(1, width / tried_of_row);
   for (int x = 0; x < width; x += stride) {
+    if (row[x] > 1 && row[x] < infinity) {
+      const bool is_whole = row[x] == std::floor(row[x]);
+      ++counts.above_one;
+      counts.whole += is_whole;
+      if (is_whole) counts.levels_of_whole.set(size_t(std::fmod(row[x], 256.0f)));
+      counts.greatest = std::max(counts.greatest, row[x]);
+    }
     if (!(row[x] > 0 && row[x] < 1)) continue;
     ++counts.tried;
     counts.steps += is_step(row[x], counts.levels);
@@ -80,6 +87,10 @@ void merge(ColourCounts& sum, const ColourCounts& counts) {
   sum.tried += counts.tried;
   sum.steps += counts.steps;
   sum.steps_of_light += counts.steps_of_light;
+  sum.above_one += counts.above_one;
+  sum.whole += counts.whole;
+  sum.greatest = std::max(sum.greatest, counts.greatest);
+  sum.levels_of_whole |= counts.levels_of_whole;
   sum.levels |= counts.levels;
   sum.levels_of_light |= counts.levels_of_light;
 }
@@ -87,6 +98,12 @@ void merge(ColourCounts& sum, const ColourCounts& counts) {
 bool has_eight_bits(const ColourCounts& counts, long long steps, const std::bitset<256>& levels) {
   return counts.outside == 0 && counts.tried >= least_tried && levels.count() >= least_levels &&
          double(counts.tried - steps) <= most_between * double(counts.tried);
+}
+
+/// Whether all values are whole numbers, as those of an integer picture: 0 to 255, or 0 to 65535.
+bool has_whole_numbers(const ColourCounts& counts) {
+  return counts.tried == 0 && counts.above_one >= least_tried && counts.whole == counts.above_one &&
+         counts.levels_of_whole.count() >= least_levels;
 }
 
 /// "3 pixels are" of 100 pixels.
@@ -136,7 +153,14 @@ std::vector<std::string> notes_on(const ColourCounts& counts, bool is_judged) {
     notes.push_back(
         fmt::format("color: {} negative; as a source of light or in a reflection, a negative component is 0",
                     pixels_are(counts.negative, counts.pixels)));
-  if (has_eight_bits(counts, counts.steps, counts.levels))
+  if (has_whole_numbers(counts))
+    notes.push_back(note_or_verdict(
+        {"color", fmt::format("it holds whole numbers up to {:g}, as an integer picture has them, and is taken for "
+                              "scene-linear light; give the renderer's linear colour, or divide by {} and take the "
+                              "display's curve out",
+                              counts.greatest, counts.greatest > 255 ? 65535 : 255)},
+        is_judged));
+  else if (has_eight_bits(counts, counts.steps, counts.levels))
     notes.push_back(note_or_verdict(
         {"color",
          "it holds the steps of an 8-bit picture from 0 to 1, as the sRGB curve of a display has them, and is taken "

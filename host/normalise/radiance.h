@@ -19,6 +19,10 @@ struct ColourCounts {
   /// light for which the sRGB curve has k/255.
   long long tried = 0, steps = 0, steps_of_light = 0;
   std::bitset<256> levels, levels_of_light;  ///< the k found
+  /// Of those that lie above 1: all, those that are whole numbers, the greatest, and the last 8 bits of the whole ones.
+  long long above_one = 0, whole = 0;
+  float greatest = 0;
+  std::bitset<256> levels_of_whole;
 };
 
 struct AlbedoCounts {

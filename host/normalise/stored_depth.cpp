@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "gloam/projection.h"
 
 namespace gloam {
@@ -52,6 +53,11 @@ double step_at(float depth, bool is_half) {
 
 DepthRows rows_of(const Channel& channel) {
   return {[&channel](int y) { return channel.row(y); }, channel.layout().width, channel.layout().height};
+}
+
+std::string note_on_planar_depth(bool is_in_unit_interval) {
+  return fmt::format("depth: taken as planar distance along the viewing axis{}; {} says otherwise",
+                     is_in_unit_interval ? ", though all of it lies in 0..1" : "", option("depth"));
 }
 
 bool is_a_mark(long long pixels, long long of) {

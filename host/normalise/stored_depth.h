@@ -33,6 +33,9 @@ struct StoredDepth {
 StoredDepth look_at_depth(const DepthRows& depth, const Background& background, bool is_stated,
                           const std::string& remedy);
 
+/// A sentence on depth that nothing is stated of, and that is taken as it is.
+std::string note_on_planar_depth(bool is_in_unit_interval);
+
 /// So many pixels, and such a share of them, hold one value that no surface has by chance.
 bool is_a_mark(long long pixels, long long of);
 

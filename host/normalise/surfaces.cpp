@@ -4,17 +4,23 @@
 
 #include "base/lists.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
+#include "normalise/depth.h"
 #include "normalise/normals.h"
 
 namespace gloam {
 
 StoredSurfaces look_at_surfaces(const DepthRows& depth, const NormalSamples* normals, const Window& window,
-                                const Camera& camera, const NormalConvention& stated) {
-  StoredSurfaces found{.depth = look_at_depth(depth, background_of({}, camera.far), false, "")};
-  found.normals = plain_form(stated);
+                                const Camera& camera, const StatedSurfaces& stated) {
+  StoredSurfaces found{.depth = look_at_depth(depth, background_of(stated.depth.background, camera.far),
+                                              stated.depth.background.has_value(),
+                                              "; " + option("background") + " says otherwise")};
+  found.normals = plain_form(stated.normals);
   if (normals && found.normals.space == NormalSpace::world && !camera.pose)
     throw Error("normals in world space need a camera with a pose; give one, or normals in view space");
   found.notes = found.depth.notes;
+  if (stated.depth.convention == DepthConvention::automatic && found.depth.is_in_unit_interval)
+    found.notes.push_back(note_on_planar_depth(true));
   if (!found.depth.is_usable) {
     found.notes.emplace_back("depth: no pixel has a usable depth; all of it is background");
     return found;
@@ -28,21 +34,40 @@ StoredSurfaces look_at_surfaces(const DepthRows& depth, const NormalSamples* nor
   if (!steps.empty()) found.notes.push_back(steps);
   if (!normals) return found;
   const std::vector<NormalPair> pairs = normals->pairs(depth_at, window, camera);
-  found.normals = find_form(pairs, camera.pose, {stated, "what is stated of them", true}, found.notes);
-  found.are_normals_used = states_anything(stated) || !fit_no_convention(pairs, found.normals, camera.pose);
+  found.normals = find_form(pairs, camera.pose, {stated.normals, "what is stated of them", true}, found.notes);
+  found.are_normals_used = states_anything(stated.normals) || !fit_no_convention(pairs, found.normals, camera.pose);
   if (!found.are_normals_used) found.notes.back() += "; they are not used, and made from the depth";
   return found;
 }
 
-void settle_surfaces(Frame& frame, bool has_new_normals, const NormalConvention& stated) {
+namespace {
+
+/// Brings the depth of a view to a distance along the viewing axis, where anything is stated of it.
+void settle_depth(View& view, Channel& depth, const Window& window, StatedDepth stated,
+                  std::vector<std::string>& assumed) {
+  if (!states_anything(stated)) return;
+  if (stated.convention == DepthConvention::automatic)
+    stated.convention = DepthConvention::z;  // as arrays are asked for
+  const Plane* alpha = view.find("alpha");
+  std::vector<std::string> notes;
+  to_view_depth(depth, alpha ? &alpha->channels.front() : nullptr, window, *view.camera, stated, notes);
+  add_new(assumed, notes);
+}
+
+}  // namespace
+
+void settle_surfaces(Frame& frame, const NewSurfaces& given, const StatedSurfaces& stated) {
+  const StatedSurfaces of_new{given.normals ? stated.normals : convention_of({}),
+                              given.depth ? stated.depth : StatedDepth{.convention = DepthConvention::z}};
   for (View& view : frame.views) {
     const auto depth = view.planes.find("depth"), normal = view.planes.find("normal");
     if (depth == view.planes.end() || !view.camera) continue;
     std::optional<NormalSamples> samples;
     Channel& values = depth->second.channels.front();
+    if (given.depth) settle_depth(view, values, frame.window, stated.depth, frame.assumed);
     if (normal != view.planes.end()) samples.emplace(values.layout()).take(normal->second, 0);
-    const StoredSurfaces found = look_at_surfaces(rows_of(values), samples ? &*samples : nullptr, frame.window,
-                                                  *view.camera, has_new_normals ? stated : convention_of({}));
+    const StoredSurfaces found =
+        look_at_surfaces(rows_of(values), samples ? &*samples : nullptr, frame.window, *view.camera, of_new);
     clean_depth(values, found.depth.sign, found.depth.background);
     add_new(frame.assumed, found.notes);
     if (normal == view.planes.end()) continue;

@@ -17,14 +17,24 @@ struct StoredSurfaces {
   std::vector<std::string> notes;  ///< a sentence for each assumption
 };
 
-/// `normals`: null for a view without them. Normals that nothing is stated of are in view space, unless they agree with the depth in another
+/// What is stated of the depth and the normals of arrays.
+struct StatedSurfaces {
+  NormalConvention normals;
+  StatedDepth depth;
+};
+
+/// `depth`: along the viewing axis. `normals`: null for a view without them. Normals that nothing is stated of are in view space, unless they agree with the depth in another
 /// convention alone. Throws Error for normals that are stated to be in world space, with a camera without a pose.
 StoredSurfaces look_at_surfaces(const DepthRows& depth, const NormalSamples* normals, const Window& window,
-                                const Camera& camera, const NormalConvention& stated);
+                                const Camera& camera, const StatedSurfaces& stated);
 
-/// Brings planes that have just been put into a frame to gloam's conventions, in place. Adds to `Frame::assumed`. `has_new_normals`: else
-/// those of the frame are in gloam's convention already, and are compared with its new depth.
-void settle_surfaces(Frame& frame, bool has_new_normals, const NormalConvention& stated);
+/// Planes of a frame that have just been put into it; its others are in gloam's conventions already.
+struct NewSurfaces {
+  bool depth = false, normals = false;
+};
+
+/// Brings new planes to gloam's conventions, in place, and compares depth and normals with each other. Adds to `Frame::assumed`.
+void settle_surfaces(Frame& frame, const NewSurfaces& given, const StatedSurfaces& stated);
 
 /// What there is to say of a view that is in gloam's conventions by the word of whoever made it.
 std::vector<std::string> notes_on_agreement(const View& view, const Window& window);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gloam/error.h"
+#include "gloam/option.h"
 #include "gloam/projection.h"
 
 namespace gloam {
@@ -40,7 +41,7 @@ std::string in_pixels(double pixels) {
 }
 
 std::string suggested(const std::string& name, double radius, double pixels) {
-  return fmt::format("--{} {:g} reaches {}", name, radius, in_pixels(pixels));
+  return fmt::format("{} reaches {}", option(name, fmt::format("{:g}", radius)), in_pixels(pixels));
 }
 
 }  // namespace

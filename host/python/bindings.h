@@ -47,6 +47,7 @@ void add_devices(py::module_& module);
 void add_device_memory(py::module_& module);
 void add_frames(py::module_& module);
 void add_files(py::module_& module);
+void add_pictures(py::module_& module);
 void add_techniques(py::module_& module);
 void add_run(py::module_& module);
 void add_auto(py::module_& module);

@@ -14,6 +14,31 @@ camera_to_world, world_to_camera: a pose, (4, 4), a rotation and a translation i
 views, for sequences and for scenes.
 Raises gloam.Error for what is not finite, out of range or no rotation.)";
 
+inline constexpr const char* from_projection_help =
+    R"(The gloam.Camera of a renderer's projection matrix, (4, 4), perspective or orthographic, off-axis too.
+
+projection: for column vectors (projection @ point); Unreal's for row vectors, as Unreal has it.
+convention: "opengl": y up, z from -1 to 1 (reversed also 1 to 0), looking along -z.  "vulkan": y down, z from 0 to 1, looking along -z or +z; also
+    Direct3D's once row 1 is negated.  "unreal": y up, z from 0 to 1, looking along +z. Reversed z and a far plane at infinity are read from the matrix.
+width, height: of the image, pixels.  near and far of the camera, scene units, are those of the matrix, for depth_is="ndc" and "reversed".
+camera_to_world, world_to_camera: a pose, (4, 4), for column vectors, with the axes of the view space that the matrix is for.
+Raises gloam.UsageError for a matrix that is transposed, contains a view, mirrors the image, or is of another convention where that shows.)";
+
+inline constexpr const char* from_intrinsics_help =
+    R"(The gloam.Camera of a matrix of intrinsics, (3, 3): [[fx, 0, cx], [0, fy, cy], [0, 0, 1]], pixels.
+
+pixel_centre: where K has the middle of the first pixel: 0.5 as gloam, COLMAP and renderers, 0 as OpenCV's calibration.
+near, far, camera_to_world, world_to_camera: as for gloam.Camera. A pose of OpenCV, whose y is down and z ahead, is
+camera_to_world @ numpy.diag([1, -1, -1, 1]) here.
+Raises gloam.UsageError for a skew, and for a matrix that is transposed.)";
+
+inline constexpr const char* from_fov_help =
+    R"(The gloam.Camera of a field of view: square pixels, the principal point in the middle of the image.
+
+degrees: 1 to 179, along the axis "horizontal" or "vertical".  width, height: of the image, pixels.
+near, far, camera_to_world, world_to_camera: as for gloam.Camera.
+Raises gloam.UsageError for an angle or a size out of range.)";
+
 inline constexpr const char* device_help = R"(An OpenCL device, open, with its compiled kernels.
 
 text: part of the platform's or the device's name, in any case; empty: the first GPU, else the widest CPU. Without a device, calls open the one

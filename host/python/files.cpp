@@ -65,7 +65,7 @@ void write(const std::string& path, const HeldFrame* frame, HeldFrame* more, con
            const std::map<std::string, std::string>& attributes, const std::map<std::string, double>& numbers,
            const std::string& compression, bool half) {
   if (std::filesystem::path(path).extension() != ".exr")
-    throw UsageError("write {}: a frame is an EXR file; name it with .exr", path);
+    throw UsageError("write {}: a frame is an EXR file, or a picture of a plane; name it with .exr or .png", path);
   if (const std::string why = why_unwritable(path); !why.empty()) throw Error("{}: cannot be written, {}", path, why);
   const WriteOptions options{
       .half = half, .compression = compression, .half_planes = {}, .shows_result = more != nullptr};

@@ -59,26 +59,31 @@ void check_sizes(const std::vector<InputArrays>& views) {
   }
 }
 
-Frame frame_of_view(const InputArrays& inputs, const Camera& camera, const NormalConvention& normals) {
+Frame frame_of_view(const InputArrays& inputs, const Camera& camera, const StatedSurfaces& stated) {
   Arrays arrays{.width = inputs.front().second.width,
                 .height = inputs.front().second.height,
                 .camera = camera,
-                .normals = normals};
+                .normals = stated.normals,
+                .depth = stated.depth};
   for (const auto& [name, input] : inputs) arrays.planes[name] = input.values();
   return frame_from(arrays);
 }
 
-/// A frame of one view or of several. `planes`: for each view, arrays by name.
+StatedSurfaces stated_surfaces(const py::dict& words) { return {normal_convention(words), stated_depth(words)}; }
+
+/// A frame of one view or of several. `planes`: for each view, arrays by name. `notes`: what there is to say of the arrays.
 SharedFrame frame_of_arrays(const std::vector<py::dict>& planes, const std::vector<Camera>& cameras,
-                            const std::vector<std::string>& names, const py::dict& words) {
+                            const std::vector<std::string>& names, const py::dict& words,
+                            const std::vector<std::string>& notes) {
   std::vector<InputArrays> views;
   for (size_t i = 0; i < planes.size(); ++i) views.push_back(arrays_of_view(planes[i], names[i]));
   check_sizes(views);
-  const NormalConvention normals = normal_convention(words);
+  const StatedSurfaces stated = stated_surfaces(words);
   return without_lock([&](Interrupts&) {
     auto held = std::make_shared<HeldFrame>();
+    held->frame.assumed = notes;
     for (size_t i = 0; i < views.size(); ++i) {
-      Frame one = frame_of_view(views[i], cameras[i], normals);
+      Frame one = frame_of_view(views[i], cameras[i], stated);
       one.views.front().name = names[i];
       held->frame.display = one.display;
       held->frame.window = one.window;
@@ -115,8 +120,9 @@ bool takes_place_of(const View& view, const std::string& name) {
 }
 
 /// A copy of a frame in which these planes join its own, or take their place. `planes`: for each view, arrays by name.
-SharedFrame with_planes(const HeldFrame& held, const std::vector<py::dict>& planes, const py::dict& words) {
-  const NormalConvention normals = normal_convention(words);
+SharedFrame with_planes(const HeldFrame& held, const std::vector<py::dict>& planes, const py::dict& words,
+                        const std::vector<std::string>& notes) {
+  const StatedSurfaces stated = stated_surfaces(words);
   const SharedFrame more = image_of_arrays(planes, view_names(held.frame));
   const Frame& image = more->frame;
   if (image.width() != held.frame.width() || image.height() != held.frame.height())
@@ -128,8 +134,9 @@ SharedFrame with_planes(const HeldFrame& held, const std::vector<py::dict>& plan
     auto joined = std::make_shared<HeldFrame>(HeldFrame{copy_of(held.frame, kept), held.name});
     const bool has_depth = image.views.front().find("depth"), has_normals = image.views.front().find("normal");
     for (size_t i = 0; i < image.views.size(); ++i) joined->frame.views[i].planes.merge(more->frame.views[i].planes);
-    if (has_depth || has_normals) settle_surfaces(joined->frame, has_normals, normals);
-    normalise(joined->frame);
+    if (has_depth || has_normals) settle_surfaces(joined->frame, {has_depth, has_normals}, stated);
+    add_new(joined->frame.assumed, notes);
+    normalise(joined->frame, has_depth ? stated.depth.background : std::nullopt);
     return joined;
   });
 }
@@ -204,6 +211,11 @@ void add_frames(py::module_& module) {
   module.def("with_planes", &with_planes);
   module.def("camera_with_fov", &camera_with_fov);
   module.def("known_planes", &known_planes);
+  module.def("components", [](const std::string& plane) { return plane_kind(plane).components.size(); });
+  module.def("is_unit_interval", [](const std::string& plane) {
+    const PlaneKind kind = plane_kind(plane);
+    return kind.meaning == PlaneKind::unit_interval;
+  });
   module.def("is_stack", [](const std::string& plane) { return is_stack(plane); });
 }
 

@@ -12,6 +12,7 @@ PYBIND11_MODULE(_gloam, module) {
   add_device_memory(module);
   add_frames(module);
   add_files(module);
+  add_pictures(module);
   add_techniques(module);
   add_run(module);
   add_auto(module);

@@ -9,35 +9,15 @@
 namespace gloam::python {
 namespace {
 
-std::string type_of(const py::handle& value) { return py::cast<std::string>(py::type::of(value).attr("__name__")); }
-
 /// "(1080, 1920)"
 std::string shape_in_words(const py::array& array) { return py::cast<std::string>(py::str(array.attr("shape"))); }
 
-bool is_masked(const py::handle& value) {
-  // Only who has imported numpy.ma can hold one.
-  const py::dict modules = py::module_::import("sys").attr("modules");
-  return modules.contains("numpy.ma") && py::isinstance(value, modules["numpy.ma"].attr("MaskedArray"));
-}
-
-/// The array behind a value, of float32 in C order; its shape is not looked at.
+/// The array behind a value, of float32 in C order, as gloam/_arrays.py makes it; its shape is not looked at.
 py::array float_array(const std::string& what, const py::handle& value) {
-  if (!py::isinstance<py::array>(value))
-    throw Error("{} is of type {}; a NumPy array of float32 is allowed, such as numpy.asarray(values, numpy.float32)",
-                what, type_of(value));
-  if (is_masked(value))
-    throw Error("{} is a masked array, and gloam knows no masks; fill it first: array.filled(numpy.inf)", what);
-  const py::array array = py::reinterpret_borrow<py::array>(value);
-  if (!py::isinstance<py::array_t<float>>(array))
-    throw Error("{} has the dtype {}; float32 is allowed: array.astype(numpy.float32)", what,
-                py::cast<std::string>(py::str(array.dtype())));
-  if (!(array.flags() & py::array::c_style))
-    throw Error(
-        "{} is not C-contiguous (shape {}, strides {}); its rows have to follow one another in memory: "
-        "numpy.ascontiguousarray(array)",
-        what, shape_in_words(array), py::cast<std::string>(py::str(array.attr("strides"))));
-  if (reinterpret_cast<std::uintptr_t>(array.data()) % alignof(float) != 0)
-    throw Error("{} does not begin at a multiple of {} bytes in memory; copy it: array.copy()", what, alignof(float));
+  const auto array = py::reinterpret_borrow<py::array>(value);
+  const bool is_plain = py::isinstance<py::array_t<float, py::array::c_style>>(value) &&
+                        reinterpret_cast<std::uintptr_t>(array.data()) % alignof(float) == 0;
+  if (!is_plain) throw Error("{} is no aligned array of float32 in C order", what);
   return array;
 }
 
@@ -58,7 +38,9 @@ InputArray input_array(const std::string& what, const py::handle& value, size_t 
   const py::array array = float_array(what, value);
   const bool has_components = components > 1;
   if (array.ndim() != (has_components ? 3 : 2) || (has_components && array.shape(2) != py::ssize_t(components)))
-    refuse_shape(what, array, has_components ? fmt::format("(height, width, {})", components) : "(height, width)");
+    refuse_shape(what, array,
+                 has_components ? fmt::format("(height, width, {0}) or ({0}, height, width)", components)
+                                : "(height, width) or (1, height, width)");
   return {array, side(what, array, 1), side(what, array, 0)};
 }
 

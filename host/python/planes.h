@@ -18,7 +18,7 @@ struct InputArray {
   std::span<const float> values() const { return {static_cast<const float*>(array.data()), size_t(array.size())}; }
 };
 
-/// Checks an array for a plane: float32 in native order, C-contiguous, (height, width) or (height, width, components). `what`: for
+/// Checks the shape of an array for a plane, which is float32 and C-contiguous: (height, width) or (height, width, components). `what`: for
 /// messages, "plane 'depth'". Throws Error in one sentence.
 InputArray input_array(const std::string& what, const py::handle& value, size_t components);
 

@@ -98,11 +98,10 @@ ReadOptions read_options(const py::dict& words) {
     options.camera_file = text(words, "camera");
   }
   if (has(words, "fov")) options.fov_degrees = taken<double>(words, "fov");
-  take_choice(words, "depth", depth_words, options.depth);
+  const StatedDepth depth = stated_depth(words);
+  options.depth = depth.convention, options.near = depth.near, options.far = depth.far;
+  options.background = depth.background;
   options.normals = normal_convention(words);
-  if (has(words, "near")) options.near = taken<double>(words, "near");
-  if (has(words, "far")) options.far = taken<double>(words, "far");
-  if (has(words, "background")) options.background = taken<float>(words, "background");
   options.views = names(words, "views");
   if (has(words, "channels")) options.channels = taken<std::map<std::string, std::string>>(words, "channels");
   if (has(words, "as_stored")) options.as_stored = taken<bool>(words, "as_stored");
@@ -115,6 +114,15 @@ NormalConvention normal_convention(const py::dict& words) {
   take_choice(words, "normal_range", normal_range_words, normals.range);
   if (has(words, "normal_axes")) normals.axes = parse_normal_axes(text(words, "normal_axes"), "normal_axes");
   return normals;
+}
+
+StatedDepth stated_depth(const py::dict& words) {
+  StatedDepth depth;
+  take_choice(words, "depth_is", depth_words, depth.convention);
+  if (has(words, "near")) depth.near = taken<double>(words, "near");
+  if (has(words, "far")) depth.far = taken<double>(words, "far");
+  if (has(words, "background")) depth.background = taken<float>(words, "background");
+  return depth;
 }
 
 std::optional<Camera> given_camera(const py::dict& words) {

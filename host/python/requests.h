@@ -17,6 +17,7 @@ PlanRequest plan_request(const py::dict& words);
 RunOptions run_options(const py::dict& words);
 ReadOptions read_options(const py::dict& words);
 NormalConvention normal_convention(const py::dict& words);
+StatedDepth stated_depth(const py::dict& words);
 
 /// The camera that stands in for those of the files, if one is given as an object: `read_options` has the files read with it.
 std::optional<Camera> given_camera(const py::dict& words);

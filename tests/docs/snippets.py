@@ -29,6 +29,7 @@ from pages import BUILT_ELSEWHERE, PAGES, Page
 SOURCE = pathlib.Path(os.environ["GLOAM_SOURCE_DIR"])
 BUILD = pathlib.Path(os.environ["GLOAM_BUILD_DIR"])
 LOG = ".log"
+CHECK_LOG = ".check.log"
 MARK = "snippet of line "
 
 
@@ -167,13 +168,13 @@ class Folder:
         self.environment = {**os.environ, "HOME": str(path), "XDG_CACHE_HOME": caches, "PATH": f"{path / 'bin'}:{os.environ['PATH']}",
                             "GLOAM_CACHE_DIR": str(path / "cache"), "SNIPPETS": str(pathlib.Path(__file__).parent)}
 
-    def bash(self, script):
-        with open(self.path / LOG, "a") as log:
+    def bash(self, script, into=LOG):
+        with open(self.path / into, "a") as log:
             return subprocess.run(["bash", "-e", "-o", "pipefail", "-c", script], cwd=self.path, env=self.environment,
                                   stdin=subprocess.DEVNULL, stdout=log, stderr=log).returncode
 
-    def log(self):
-        return (self.path / LOG).read_text(errors="replace")
+    def log(self, of=LOG):
+        return (self.path / of).read_text(errors="replace")
 
 
 def run_commands(name, commands, folder):
@@ -225,8 +226,9 @@ def run(name, path, is_checked):
             json.loads(block.text)
             (path / next(documents)).write_text(block.text)
     log = folder.log()
-    if is_checked and folder.bash(f"set -x\n{page.check}"):
-        raise Fault(f"{name}: the snippets ran, but what they made is not what is expected\n{folder.log()[-3000:]}")
+    # Its trace has all that it looks for, and would be found in the log.
+    if is_checked and folder.bash(f"set -x\n{page.check}", CHECK_LOG):
+        raise Fault(f"{name}: the snippets ran, but what they made is not what is expected\n{folder.log(CHECK_LOG)[-3000:]}")
     tell(name, blocks, log)
     return 0
 

@@ -32,25 +32,16 @@ def refused(call, sentence, kind=gloam.Error):
 
 
 @pytest.mark.parametrize("change, sentence", [
-    (lambda z: z.astype(numpy.float64), "plane 'depth' has the dtype float64; float32 is allowed"),
-    (lambda z: z.astype(numpy.float16), "has the dtype float16"),
-    (lambda z: z.astype(">f4"), "has the dtype >f4"),
-    (lambda z: z.astype(numpy.uint8), "has the dtype uint8"),
+    (lambda z: z.astype(str), "has the dtype <U32"),
+    (lambda z: z.astype("datetime64[s]"), "has the dtype datetime64[s]"),
     (lambda z: z.astype(object), "has the dtype object"),
     (lambda z: z.astype(complex), "has the dtype complex128"),
-    (lambda z: numpy.asfortranarray(z), "plane 'depth' is not C-contiguous"),
-    (lambda z: z[:, ::2], "numpy.ascontiguousarray(array)"),
-    (lambda z: z[::-1], "is not C-contiguous"),
-    (lambda z: z[:, 1:], "is not C-contiguous"),
-    (lambda z: numpy.broadcast_to(numpy.float32(5), (90, 150)), "is not C-contiguous"),
-    (lambda z: numpy.frombuffer(b"x" + z.tobytes(), numpy.float32, offset=1).reshape(z.shape),
-     "plane 'depth' does not begin at a multiple of 4 bytes in memory; copy it: array.copy()"),
-    (lambda z: z.ravel(), "plane 'depth' has the shape (13500,); (height, width) is allowed"),
-    (lambda z: z[:, :, None], "has the shape (90, 150, 1); (height, width) is allowed"),
+    (lambda z: z.ravel(), "plane 'depth' has the shape (13500,); (height, width) or (1, height, width) is allowed"),
+    (lambda z: z[None, :, None, :, None], "has the shape (90, 1, 150, 1); (height, width)"),
     (lambda z: z[:0], "1 to 65536 pixels each way are allowed"),
     (lambda z: numpy.ma.masked_greater(z, 9), "plane 'depth' is a masked array"),
-    (lambda z: z.tolist(), "plane 'depth' is of type list; a NumPy array of float32 is allowed"),
-    (lambda z: None, "plane 'depth' is of type NoneType"),
+    (lambda z: z.tolist(), "plane 'depth' is of type list; an array is allowed, such as numpy.asarray(values, numpy.float32)"),
+    (lambda z: None, "there is neither a frame nor an array"),
     (lambda z: numpy.zeros((2, 70000), numpy.float32), "1 to 65536 pixels each way"),
 ])
 def test_arrays(change, sentence, depth, camera):
@@ -99,8 +90,8 @@ def test_a_mask_that_the_technique_makes(mask, depth, camera):
 def test_planes_of_two_sizes(depth, camera):
     refused(lambda: gloam.run("gtao", depth=depth, normal=numpy.zeros((90, 140, 3), numpy.float32), camera=camera),
             "plane 'normal' is 140 x 90 pixels, and 'depth' is 150 x 90")
-    refused(lambda: gloam.run("gtao", depth=depth, normal=numpy.zeros((90, 150, 4), numpy.float32), camera=camera),
-            "plane 'normal' has the shape (90, 150, 4); (height, width, 3) is allowed")
+    refused(lambda: gloam.run("gtao", depth=depth, normal=numpy.zeros((90, 150, 5), numpy.float32), camera=camera),
+            "plane 'normal' has the shape (90, 150, 5); (height, width, 3) or (3, height, width) is allowed")
 
 
 @pytest.mark.parametrize("change, sentence", [

@@ -4,6 +4,7 @@ import ast
 import inspect
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 
@@ -67,7 +68,7 @@ def test_keywords_of_run_are_neither_planes_nor_parameters():
     from gloam import _gloam, _run
 
     options = {"camera", "fov", "views", "device", "settings", "frame", "technique", "temporal", "path", "resume", "half", "compression", "keep_depth",
-               *_run._OPTIONS}
+               *_run._OPTIONS, *_run._NAMED}
     for technique in gloam.techniques().values():
         # As on the command line, `filter` is the technique that follows; settings={"filter": ...} is the parameter.
         assert options & set(technique.parameters) <= {"filter"}, technique.name
@@ -105,3 +106,25 @@ def test_no_symbol_but_the_modules_own_is_seen():
     seen = subprocess.run(["nm", "-D", "--defined-only", library], capture_output=True, text=True).stdout
     names = [line.split()[-1] for line in seen.splitlines()]
     assert [name for name in names if not name.startswith("_fini") and not name.startswith("_init")] == ["PyInit__gloam"]
+
+
+def imported(folder):
+    """What `import gloam` says of a package in a folder."""
+    done = subprocess.run([sys.executable, "-c", "import gloam"], capture_output=True, text=True, env={**os.environ, "PYTHONPATH": str(folder)})
+    assert done.returncode == 1
+    return done.stderr.splitlines()[-1]
+
+
+def test_a_package_without_its_compiled_part_says_what_to_do(tmp_path):
+    build = tmp_path / "build"
+    package = build / "python" / "gloam"
+    shutil.copytree(FOLDER, package, ignore=shutil.ignore_patterns("*.so", "__pycache__"))
+    assert imported(build / "python").endswith("has no compiled part: run pip install . in the source tree, or script/build and PYTHONPATH=build/python")
+    (build / "CMakeCache.txt").touch()
+    assert imported(build / "python") == f"ImportError: gloam in {package} is not built yet: run cmake --build {build} --target gloam_python"
+    (package / "_gloam.cpython-27-x86_64-linux-gnu.so").touch()
+    assert "is built for another Python, _gloam.cpython-27-x86_64-linux-gnu.so, and this one takes _gloam.cpython-3" in imported(build / "python")
+
+
+def test_the_source_tree_is_no_package_that_works_by_half():
+    assert "has no compiled part" in imported(pathlib.Path(os.environ["GLOAM_SOURCE_DIR"]) / "host" / "python")

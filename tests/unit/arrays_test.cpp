@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <glm/matrix.hpp>
 #include <limits>
 #include <thread>
 
@@ -12,6 +13,7 @@
 #include "gloam/error.h"
 #include "gloam/exr.h"
 #include "gloam/planes.h"
+#include "gloam/projection_camera.h"
 #include "support/techniques.h"
 #include "unit/message_of.h"
 
@@ -59,6 +61,48 @@ TEST(Arrays, GiveAmbientOcclusionPixelByPixel) {
   const size_t row = height / 2 * width;
   EXPECT_LT(ao[row + width / 2 - 1], 0.9f) << "beside the nearer wall";
   EXPECT_GT(ao[row + 2], 0.95f) << "far from it";
+}
+
+TEST(Arrays, DepthIsWhatIsStatedOfIt) {
+  const std::vector<float> depth = two_walls();
+  const double near = 0.5, far = 8;
+  std::vector<float> window(depth);
+  for (float& value : window) value = float(far / (far - near) * (1 - near / value));
+  window[7] = 1;
+  Arrays stated = arrays_of(window);
+  stated.depth = {.convention = DepthConvention::ndc, .near = near, .far = far};
+  const Frame frame = frame_from(stated);
+  const std::vector<float> found = values_of(frame, "depth");
+  EXPECT_TRUE(std::isinf(found[7]));
+  for (size_t i = 8; i < found.size(); ++i) ASSERT_NEAR(found[i], depth[i], 1e-5) << i;
+  EXPECT_TRUE(frame.assumed.empty());
+  stated.depth.near = {};
+  EXPECT_NE(refusal_of(stated).find("needs the distance of the near plane"), std::string::npos) << refusal_of(stated);
+  Arrays marked = arrays_of(depth);
+  marked.depth.background = 4.0f;
+  EXPECT_TRUE(std::isinf(values_of(frame_from(marked), "depth").front()));
+  EXPECT_EQ(values_of(frame_from(marked), "depth").back(), 3.5f);
+}
+
+TEST(Arrays, WithACameraInAnotherUnitAreTold) {
+  const std::vector<float> depth = two_walls();
+  Arrays arrays = arrays_of(depth);
+  EXPECT_TRUE(frame_from(arrays).assumed.empty());
+  arrays.camera.cx = width + 1;
+  ASSERT_EQ(frame_from(arrays).assumed.size(), 1u);
+  EXPECT_NE(frame_from(arrays).assumed.front().find("lies outside of the image"), std::string::npos);
+}
+
+TEST(Cameras, OfAProjectionDrawPointsWhereItDoes) {
+  // glFrustum(-0.1, 0.3, -0.05, 0.15, 0.1, 10), as columns.
+  const glm::dmat4 projection(0.5, 0, 0, 0, 0, 1, 0, 0, 0.5, 0.5, -10.1 / 9.9, -1, 0, 0, -2 / 9.9, 0);
+  const Camera camera = camera_from_projection(projection, ClipSpace::opengl, 400, 200).camera;
+  EXPECT_DOUBLE_EQ(camera.fx, 100), EXPECT_DOUBLE_EQ(camera.fy, 100);
+  EXPECT_DOUBLE_EQ(camera.cx, 100), EXPECT_DOUBLE_EQ(camera.cy, 150);
+  EXPECT_NEAR(*camera.near, 0.1, 1e-12), EXPECT_NEAR(*camera.far, 10, 1e-10);
+  const std::string refusal =
+      message_of([&] { camera_from_projection(glm::transpose(projection), ClipSpace::opengl, 400, 200); });
+  EXPECT_NE(refusal.find("projection is transposed"), std::string::npos) << refusal;
 }
 
 TEST(Arrays, ComponentsStandSideBySide) {

@@ -4,12 +4,16 @@
     result = gloam.run("gtao", depth=z, normal=n, camera=gloam.Camera(fx=850, fy=850, cx=960, cy=540), radius=0.5)
     result["ao"]                # (height, width), float32, 1 open, 0 closed
 
-Arrays are float32 and C-contiguous, rows from the top: (height, width), or (height, width, components). Depth is the distance along the
-viewing axis (not along the ray) in scene units; +inf, NaN, 0 and less, 1e10 and more are background. Normals are in view space: x to the
+Arrays have rows from the top: (height, width), or (height, width, components), of NumPy, torch or whatever shares the host's memory. Depth is
+the distance along the viewing axis in scene units, or what depth_is says; +inf, NaN, 0 and less, 1e10 and more are background. Normals are in view space: x to the
 right, y up, z towards the eye. A radius, and every other length, is in the unit of depth.
 
 Whatever cannot be done raises `gloam.Error`, whose text is one sentence: what is wrong, the value, what is allowed. docs/python.md has the rest.
 """
+
+from . import _built
+
+_built.check()
 
 from . import _gloam
 from ._auto import AutoResult, auto

@@ -6,11 +6,11 @@ import numpy
 import numpy.typing
 
 Array = numpy.typing.NDArray[numpy.float32]
-Plane = Union[Array, List[Array]]
+Plane = Union[Any, List[Any]]  # arrays of NumPy, or of any library that shares the host's memory by DLPack or __array__
 Path = Union[str, "os.PathLike[str]"]
 Point = Union[Tuple[float, float, float], List[float]]
 Setting = Union[float, bool, str]
-Image = Union[Array, "Frame", Mapping[str, Plane], Path]
+Image = Union[Any, "Frame", Mapping[str, Plane], Path]
 
 __version__: str
 
@@ -26,6 +26,18 @@ class Camera:
     def __init__(self, fx: float, fy: float, cx: float, cy: float, *, orthographic: bool = False, near: Optional[float] = None,
                  far: Optional[float] = None, camera_to_world: Optional[numpy.typing.ArrayLike] = None,
                  world_to_camera: Optional[numpy.typing.ArrayLike] = None) -> None: ...
+    @staticmethod
+    def from_projection(projection: numpy.typing.ArrayLike, convention: str, width: int, height: int, *,
+                        camera_to_world: Optional[numpy.typing.ArrayLike] = None,
+                        world_to_camera: Optional[numpy.typing.ArrayLike] = None) -> "Camera": ...
+    @staticmethod
+    def from_intrinsics(K: numpy.typing.ArrayLike, *, pixel_centre: float = 0.5, near: Optional[float] = None, far: Optional[float] = None,
+                        camera_to_world: Optional[numpy.typing.ArrayLike] = None,
+                        world_to_camera: Optional[numpy.typing.ArrayLike] = None) -> "Camera": ...
+    @staticmethod
+    def from_fov(degrees: float, width: int, height: int, *, axis: str = "horizontal", near: Optional[float] = None,
+                 far: Optional[float] = None, camera_to_world: Optional[numpy.typing.ArrayLike] = None,
+                 world_to_camera: Optional[numpy.typing.ArrayLike] = None) -> "Camera": ...
     @property
     def fx(self) -> float: ...
     @property
@@ -149,8 +161,8 @@ class Sequence:
     notes: List[str]
     def __init__(self, pattern: Union[Path, _Sequence[Path]], *, frames: Union[str, int, _Sequence[int], None] = None,
                  missing: Optional[str] = None, camera: Union[Camera, Path, None] = None, fov: Optional[float] = None,
-                 depth: Optional[str] = None, near: Optional[float] = None, far: Optional[float] = None,
-                 background: Optional[float] = None, normal_space: Optional[str] = None, normal_range: Optional[str] = None,
+                 depth_is: Optional[str] = None, depth: Optional[str] = None, near: Optional[float] = None, far: Optional[float] = None,
+                 background: Optional[float] = None, normals_are: Optional[str] = None, normal_space: Optional[str] = None, normal_range: Optional[str] = None,
                  normal_axes: Optional[str] = None, views: Union[str, List[str], None] = None,
                  channels: Optional[Dict[str, str]] = None) -> None: ...
     @property
@@ -211,8 +223,9 @@ class Technique:
 
 def run(technique: str, frame: Union[Frame, Path, _Sequence[Path], None] = None, *, camera: Union[Camera, List[Camera], Path, None] = None,
         fov: Optional[float] = None, views: Union[str, List[str], None] = None, device: Union[Device, str, None] = None,
-        settings: Optional[Dict[str, Setting]] = None, normal_space: Optional[str] = None, normal_range: Optional[str] = None,
-        normal_axes: Optional[str] = None, **keywords: Any) -> Result: ...
+        settings: Optional[Dict[str, Setting]] = None, depth_is: Optional[str] = None, near: Optional[float] = None,
+        far: Optional[float] = None, background: Optional[float] = None, normals_are: Optional[str] = None,
+        normal_space: Optional[str] = None, normal_range: Optional[str] = None, normal_axes: Optional[str] = None, **keywords: Any) -> Result: ...
 def device_layout(width: int, height: int) -> DeviceLayout: ...
 def enqueue(technique: str, planes: Dict[str, Union[DevicePlane, List[DevicePlane]]],
             results: Dict[str, Union[DevicePlane, List[Optional[DevicePlane]]]], *,
@@ -222,18 +235,19 @@ def auto(frame: Union[Frame, Path, _Sequence[Path], None] = None, *, budget: Opt
          mask: Optional[str] = None, measure: bool = False, composite: bool = False, color_holds: Optional[str] = None,
          ambient: Optional[Point] = None, camera: Union[Camera, List[Camera], Path, None] = None, fov: Optional[float] = None,
          views: Union[str, List[str], None] = None, device: Union[Device, str, None] = None,
-         settings: Optional[Dict[str, Setting]] = None, normal_space: Optional[str] = None, normal_range: Optional[str] = None,
-         normal_axes: Optional[str] = None, **keywords: Any) -> AutoResult: ...
-def pick(frame: Union[Frame, Path], *, budget: Optional[float] = None, error: Optional[float] = None, by: str = "rmse",
+         settings: Optional[Dict[str, Setting]] = None, depth_is: Optional[str] = None, near: Optional[float] = None,
+         far: Optional[float] = None, background: Optional[float] = None, normals_are: Optional[str] = None,
+         normal_space: Optional[str] = None, normal_range: Optional[str] = None, normal_axes: Optional[str] = None, **keywords: Any) -> AutoResult: ...
+def pick(frame: Union[Frame, Path, None] = None, *, budget: Optional[float] = None, error: Optional[float] = None, by: str = "rmse",
          truth: Union[Frame, Path, _Sequence[Union[Frame, Path]], None] = None, techniques: Union[str, List[str], None] = None,
          radius: Optional[float] = None, rays: int = 256, rounds: int = 9, time: Optional[float] = 60,
          device: Union[Device, str, None] = None, **reading: Any) -> Dict[str, Any]: ...
 def read(file: Union[Path, _Sequence[Path]], *, camera: Union[Camera, Path, None] = None, fov: Optional[float] = None,
-         depth: Optional[str] = None, near: Optional[float] = None, far: Optional[float] = None, background: Optional[float] = None,
-         normal_space: Optional[str] = None, normal_range: Optional[str] = None, normal_axes: Optional[str] = None,
+         depth_is: Optional[str] = None, depth: Optional[str] = None, near: Optional[float] = None, far: Optional[float] = None,
+         background: Optional[float] = None, normals_are: Optional[str] = None, normal_space: Optional[str] = None, normal_range: Optional[str] = None, normal_axes: Optional[str] = None,
          views: Union[str, List[str], None] = None, channels: Optional[Dict[str, str]] = None,
          planes: Union[str, List[str], None] = None, as_stored: bool = False) -> Frame: ...
-def write(path: Path, what: Union[Frame, Result, Mapping[str, Plane]], *, camera: Union[Camera, List[Camera], None] = None,
+def write(path: Path, what: Union[Frame, Result, Mapping[str, Plane], Any], *, plane: Optional[str] = None, camera: Union[Camera, List[Camera], None] = None,
           fov: Optional[float] = None, compression: str = "zip", half: bool = False) -> None: ...
 def compare(test: Image, reference: Image, *, plane: Optional[str] = None, mask: Optional[numpy.typing.NDArray[Any]] = None,
             frame: Union[Frame, Path, None] = None, exposure: Optional[float] = None) -> Dict[str, Any]: ...

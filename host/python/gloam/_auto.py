@@ -10,7 +10,7 @@ _OPTIONS = ("preset", "filter", "extras", "resolution", "adaptive", "math", "rea
 
 #: Those that are named in its signature.
 _NAMED = ("camera", "fov", "views", "device", "settings", "budget", "error", "mask", "measure", "composite", "color_holds",
-          "ambient") + _words.NORMALS
+          "ambient") + _words.DEPTH + _words.NORMALS
 
 
 class AutoResult(Result):
@@ -34,11 +34,12 @@ class AutoResult(Result):
 
 
 def auto(frame=None, *, budget=None, error=None, mask=None, measure=False, composite=False, color_holds=None, ambient=None, camera=None,
-         fov=None, views=None, device=None, settings=None, normal_space=None, normal_range=None, normal_axes=None, **keywords):
+         fov=None, views=None, device=None, settings=None, depth_is=None, near=None, far=None, background=None, normals_are=None,
+         normal_space=None, normal_range=None, normal_axes=None, **keywords):
     """Looks at a frame, computes only the effects that it calls for, and returns a gloam.AutoResult: their planes as arrays, and why.
 
     What a frame does not call for is given as if computed: AO of 1, reflections of 0.
-    frame, planes by keyword, camera, fov, views, device, normal_space, normal_range, normal_axes: as for gloam.run. Of a path only the
+    frame, planes by keyword, camera, fov, views, device, depth_is, near, far, background, normals_are, normal_space, normal_range, normal_axes: as for gloam.run. Of a path only the
         planes are read that effects may need.
     budget: device time for all effects and for looking, milliseconds above 0: effects, presets and resolutions are chosen for the least error of
         the picture.  error: instead, the RMS error of the picture, above 0; chosen is what takes the least time. Both need the plane color.
@@ -55,14 +56,15 @@ def auto(frame=None, *, budget=None, error=None, mask=None, measure=False, compo
     colour, gloam.MissingPlanes where the frame has what no effect needs. Ctrl-C ends the call between two passes.
     """
     options = {name: keywords.pop(name) for name in _OPTIONS if name in keywords}
-    normals = _words.normals({"normal_space": normal_space, "normal_range": normal_range, "normal_axes": normal_axes})
+    surfaces = _words.surfaces(depth_is=depth_is, near=near, far=far, background=background, normals_are=normals_are, normal_space=normal_space,
+                               normal_range=normal_range, normal_axes=normal_axes)
     planes, parameters = _run.divided(keywords)
     _run.check_names(parameters, _OPTIONS + _NAMED)
     words, run_words = _run.shared_words(parameters, settings, options)
     more = {"budget": _words.number("budget", budget), "error": _words.number("error", error), "mask": _words.text("mask", mask),
             "measure": bool(measure), "composite": bool(composite), "color_holds": _words.text("color_holds", color_holds),
             "ambient": _words.point("ambient", ambient)}
-    made, is_own, several = _run.frame_for(frame, planes, camera, fov, views, normals,
+    made, is_own, several = _run.frame_for(frame, planes, camera, fov, views, surfaces,
                                            lambda paths, reading: _gloam.read_for_auto(paths, reading, words, more))
     outcome, facts, picture = _gloam.auto(words, made, is_own, _words.device(device), run_words, more)
     result = AutoResult(outcome, several, json.loads(facts), picture)

@@ -2,7 +2,7 @@
 
 import numpy
 
-from . import _files, _gloam, _run, _words
+from . import _arrays, _files, _gloam, _run, _words
 from ._gloam import Frame, UsageError
 
 #: Where an array says nothing of its plane, the first of these that the other side has in its shape.
@@ -25,29 +25,31 @@ def _name_for(array, other, plane):
 def _side(which, value, other, plane):
     """The images of a side, and the frame whose depth tells its background."""
     if isinstance(value, numpy.ndarray):
-        return _files._image({_name_for(value, other, plane): value}), None
+        return _files._image({_name_for(value, other, plane): value})[0], None
     if isinstance(value, Frame):
         return value, value
     if isinstance(value, _run.Result):
         return _files.image_of_result(value), value.frame
     if isinstance(value, dict) and value:
-        image = _files._image(value)
+        image, _ = _files._image(value)
         return image, image
     raise _words.refusal(f"{which} is of type {type(value).__name__}; an array, a result of gloam.run, a gloam.Frame or a path are allowed")
 
 
-def _opened(value):
-    """A path's frame, its values as they are stored."""
+def _opened(which, value):
+    """A path's frame, its values as they are stored; an image of any library as an array."""
+    if _arrays.is_array(value):
+        return _arrays.image(which, value)
     return _files.read_as_stored(value) if _words.is_path(value) else value
 
 
 def compare(test, reference, *, plane=None, mask=None, frame=None, exposure=None):
     """Figures of how far an image is from the truth, those of `gloam compare`, as a dict.
 
-    test, reference: arrays, float32, (height, width) or (height, width, components); results of gloam.run; gloam.Frames; dicts of arrays; or
+    test, reference: arrays, (height, width) or (height, width, components), in the layouts and types that gloam.run takes; results of gloam.run; gloam.Frames; dicts of arrays; or
         paths of EXR files, whose values are taken as they are stored.
     plane: the plane to compare; default: the first that both sides have, results first.
-    mask: the pixels that count, an array of bool, (height, width).  frame: a gloam.Frame or a path whose depth tells the background;
+    mask: the pixels that count, an array of bool, (height, width), or of numbers above 0 there.  frame: a gloam.Frame or a path whose depth tells the background;
         default: the depth of the test, else of the reference, else every pixel counts.
     exposure: factor on radiance before ssim, gmsd and flip.
 
@@ -55,7 +57,7 @@ def compare(test, reference, *, plane=None, mask=None, frame=None, exposure=None
     of pixels), ssim, gmsd, of colours flip and rse; plane, truth_plane, notes; of several views also views, the figures of each.
     Raises gloam.Error for sizes that differ, values that are not finite, and a mask without a pixel.
     """
-    test, reference = _opened(test), _opened(reference)
+    test, reference = _opened("test", test), _opened("reference", reference)
     if isinstance(test, numpy.ndarray) and isinstance(reference, numpy.ndarray) and test.shape != reference.shape:
         raise _words.refusal(f"the test has the shape {test.shape}, and the reference {reference.shape}; "
                          "only images of one shape can be compared")
@@ -64,11 +66,11 @@ def compare(test, reference, *, plane=None, mask=None, frame=None, exposure=None
     truths, other_teller = _side("reference", reference, test, plane)
     tellers = [held for held in (teller, other_teller) if held is not None]
     if frame is not None:
-        given = _opened(frame)
+        given = _opened("frame", frame)
         if not isinstance(given, Frame) or "depth" not in given:
             raise _words.refusal("frame: has no depth to tell the background by; a gloam.Frame or a path with depth is allowed")
         tellers.insert(0, given)
-    figures = _gloam.compare(images, truths, plane or "", mask, tellers, _words.number("exposure", exposure))
+    figures = _gloam.compare(images, truths, plane or "", None if mask is None else _arrays.mask("mask", mask), tellers, _words.number("exposure", exposure))
     unknown = "no depth on either side: every pixel counts; frame=... or mask=... tells the background"
     notes = [] if figures.pop("background_is_known") else [unknown]
     figures["notes"] = notes

@@ -1,23 +1,24 @@
 """read, write and Sequence: frames in EXR files."""
 
 import collections
+import os
 
 import numpy
 
-from . import _gloam, _run, _words
+from . import _arrays, _gloam, _run, _words
 from ._gloam import Error, Frame, UsageError
 
 
-def read(file, *, camera=None, fov=None, depth=None, near=None, far=None, background=None, normal_space=None, normal_range=None,
-         normal_axes=None, views=None, channels=None, planes=None, as_stored=False):
+def read(file, *, camera=None, fov=None, depth_is=None, depth=None, near=None, far=None, background=None, normals_are=None, normal_space=None,
+         normal_range=None, normal_axes=None, views=None, channels=None, planes=None, as_stored=False):
     """Reads a frame from an EXR file, and returns a gloam.Frame. What is not stated and has to be assumed is in its `notes`.
 
     file: a path, or a list of two paths, one for each eye.
     camera: a gloam.Camera, or the path of a camera JSON; default: the header's, else the JSON beside the file.
     fov: horizontal field of view, degrees, over every other camera.
-    depth: what depth values mean: "auto", "z" (along the viewing axis), "ray", "ndc" or "reversed"; near, far: the clipping planes of the last two,
-        scene units.  background: the depth value that means background.
-    normal_space: "auto", "view" or "world".  normal_range: "auto", "signed" (-1 to 1) or "unsigned" (0 to 1).  normal_axes: "auto", or the axis
+    depth_is: what depth values mean: "auto", "z" (along the viewing axis), "ray", "ndc" or "reversed"; near, far: the clipping planes of the last
+        two, scene units.  background: the depth value that means background.  depth: another name of depth_is.
+    normals_are: as for gloam.run; or one by one, normal_space: "auto", "view" or "world".  normal_range: "auto", "signed" (-1 to 1) or "unsigned" (0 to 1).  normal_axes: "auto", or the axis
         that each component lies along: "x,-y,z" has y down. What is not stated is found by the depth.
     views: names of the views to read.  channels: {"depth": "Layer.Z"}: channels or layers that planes are taken from, or "none".
     planes: names of the planes to read; default: all that every view has.
@@ -25,8 +26,8 @@ def read(file, *, camera=None, fov=None, depth=None, near=None, far=None, backgr
 
     Raises gloam.Error for a file that cannot be read, naming it.
     """
-    words = _words.reading(camera, fov=fov, depth=depth, near=near, far=far, background=background, views=views, channels=channels,
-                           as_stored=as_stored, normal_space=normal_space, normal_range=normal_range, normal_axes=normal_axes)
+    words = _words.reading(camera, fov=fov, depth_is=depth_is, depth=depth, near=near, far=far, background=background, views=views,
+                           channels=channels, as_stored=as_stored, normals_are=normals_are, normal_space=normal_space, normal_range=normal_range, normal_axes=normal_axes)
     paths = _run._files(file)
     if paths is None:
         raise _words.refusal(f"file is of type {type(file).__name__}; a path is allowed, or a list of two paths, one for each eye")
@@ -43,19 +44,46 @@ def read_as_stored(file):
 def _image(planes, views=None):
     """Arrays as a frame without cameras, their values as they are."""
     of_views, _ = _run._of_each_view(dict(planes))
-    return _gloam.image_of_arrays(of_views, views or _run._names_of_views(None, len(of_views)))
+    of_views, notes = _arrays.planes_of_views(of_views, views)
+    return _gloam.image_of_arrays(of_views, views or _run._names_of_views(None, len(of_views))), notes
 
 
 def image_of_result(result):
     listed = {name: value if isinstance(value, list) else [value] for name, value in result.items()}
-    return _image(listed, result.views)
+    return _image(listed, result.views)[0]
 
 
-def write(path, what, *, camera=None, fov=None, compression="zip", half=False):
-    """Writes an EXR file, as the command `gloam` does. It is there whole or not at all.
+def _is_picture(path):
+    return os.path.splitext(os.fsdecode(path))[1].lower() == ".png"
 
+
+def _write_picture(target, what, plane):
+    """A PNG of one plane, by default of the first; of several views one for each."""
+    teller = None
+    if isinstance(what, Frame):
+        image = what
+    elif isinstance(what, _run.Result):
+        image, teller = image_of_result(what), what.frame
+    elif isinstance(what, dict) and what:
+        image, _ = _image(what)
+    elif _arrays.is_array(what):
+        array = _arrays.image("write: the array", what)
+        plane = plane or ("ao" if array.ndim == 2 else "color")
+        image, _ = _image({plane: array[..., :3] if array.ndim == 3 and plane == "color" else array})
+    else:
+        raise _words.refusal(f"write: {type(what).__name__} cannot be drawn; an array, a result of gloam.run, a gloam.Frame or a dict of arrays can")
+    listed = list(what) if isinstance(what, dict) else image.planes
+    _words.note(_gloam.write_pictures(target, image, _words.text("plane", plane) or listed[0], teller), stacklevel=3)
+
+
+def write(path, what, *, plane=None, camera=None, fov=None, compression="zip", half=False):
+    """Writes an EXR file, or a picture, PNG, as the command `gloam` does. It is there whole or not at all.
+
+    path: of an EXR file; or of a picture, "ao.png", which shows one plane for people: AO and other single components as grey from 0 to 1, normals as
+        0.5 + 0.5 n, colour through the sRGB curve, background hatched where a depth tells it. plane: which one; default: the first. Of
+        several views there is a picture for each, "ao.left.png". A picture may be of an array too.
     what: a gloam.Frame; a result of gloam.run, with the depth and the camera of its frame, as `gloam run -o` writes it; or a dict of arrays by
-        the names of their planes, float32, (height, width) or (height, width, components), or lists of them.
+        the names of their planes, (height, width) or (height, width, components), in the layouts and types that gloam.run takes, or lists.
     camera, fov: as for gloam.run, for a dict.
     compression: "zip", "zips", "piz", "rle" or "none", all lossless.  half: AO and other bounded planes as 16-bit floats.
 
@@ -63,6 +91,13 @@ def write(path, what, *, camera=None, fov=None, compression="zip", half=False):
     """
     target = _words.path("path", path)
     compression = _words.word("compression", compression)
+    if _is_picture(target):
+        _write_picture(target, what, plane)
+        return
+    if plane is not None:
+        raise _words.refusal("plane: chooses what a picture shows, and an EXR file has all planes; leave it out, or name a .png")
+    if _arrays.is_array(what):
+        raise _words.refusal("write: an array has no name in an EXR file; give a dict such as {'ao': array}, or name a .png")
     if isinstance(what, Frame):
         _gloam.write(target, what, None, [], {}, {}, compression, bool(half))
     elif isinstance(what, _run.Result):
@@ -71,10 +106,12 @@ def write(path, what, *, camera=None, fov=None, compression="zip", half=False):
     elif isinstance(what, dict):
         if not what:
             raise _words.refusal("write: the dict has no array; give one of arrays by the names of their planes")
-        image = _image(what)
+        image, notes = _image(what)
+        _words.note(notes, stacklevel=2)
         cameras = None
         if camera is not None or fov is not None:
             of_views, several = _run._of_each_view(dict(what))
+            of_views, _ = _arrays.planes_of_views(of_views)
             cameras = _run._cameras(camera, fov, of_views, several)
         _gloam.write_image(target, image, cameras, compression, bool(half))
     else:
@@ -98,8 +135,8 @@ class Sequence:
     Raises gloam.Error for a sequence without files, and for frames that are missing.
     """
 
-    def __init__(self, pattern, *, frames=None, missing=None, camera=None, fov=None, depth=None, near=None, far=None, background=None,
-                 normal_space=None, normal_range=None, normal_axes=None, views=None, channels=None):
+    def __init__(self, pattern, *, frames=None, missing=None, camera=None, fov=None, depth_is=None, depth=None, near=None, far=None,
+                 background=None, normals_are=None, normal_space=None, normal_range=None, normal_axes=None, views=None, channels=None):
         paths = _run._files(pattern)
         if paths is None:
             raise _words.refusal(f"pattern is of type {type(pattern).__name__}; a path such as 'shot.####.exr' is allowed, or a list of two")
@@ -108,8 +145,8 @@ class Sequence:
         elif isinstance(frames, (list, tuple)) or isinstance(frames, (int, numpy.integer)):
             numbers = [frames] if isinstance(frames, (int, numpy.integer)) else frames
             frames = ",".join(str(_words.integer("frames", number)) for number in numbers)
-        self._words = _words.reading(camera, fov=fov, depth=depth, near=near, far=far, background=background, views=views,
-                                     channels=channels, normal_space=normal_space, normal_range=normal_range, normal_axes=normal_axes)
+        self._words = _words.reading(camera, fov=fov, depth_is=depth_is, depth=depth, near=near, far=far, background=background, views=views,
+                                     channels=channels, normals_are=normals_are, normal_space=normal_space, normal_range=normal_range, normal_axes=normal_axes)
         self._held = _gloam.open_sequence(paths, _words.text("frames", frames), _words.text("missing", missing), self._words)
         self.notes = self._held.notes
         _words.note(self.notes, stacklevel=2)

@@ -6,7 +6,7 @@ import statistics
 
 import numpy
 
-from . import _gloam, _words
+from . import _arrays, _gloam, _words
 from ._gloam import Camera, Error, Frame, UsageError
 
 Pass = collections.namedtuple("Pass", ["view", "name", "ms"])
@@ -17,7 +17,7 @@ _OPTIONS = ("preset", "filter", "extras", "outputs", "resolution", "adaptive", "
             "repeat", "strips", "layers", "eyes")
 
 #: Those that are named in its signature.
-_NAMED = ("camera", "fov", "views", "device", "settings") + _words.NORMALS
+_NAMED = ("camera", "fov", "views", "device", "settings") + _words.DEPTH + _words.NORMALS
 
 
 class Result(dict):
@@ -77,9 +77,7 @@ class Result(dict):
 
 def _is_planes(value):
     """Whether a keyword's value is of a plane: an array, or a list with one for each view."""
-    if isinstance(value, numpy.ndarray):
-        return value.ndim > 0
-    return isinstance(value, (list, tuple)) and any(isinstance(item, numpy.ndarray) for item in value)
+    return _arrays.is_array(value) or isinstance(value, (list, tuple)) and any(_arrays.is_array(item) for item in value)
 
 
 def divided(keywords):
@@ -89,6 +87,9 @@ def divided(keywords):
     parameters = {}
     for name, value in keywords.items():
         name = _words.text("keyword", name)
+        value = _arrays.plain(value)
+        if value is None and name in known:
+            continue  # not given
         if name in known and not isinstance(value, (str, bool, int, float, numpy.generic, os.PathLike)):
             planes[name] = value
         elif _is_planes(value):
@@ -139,9 +140,17 @@ def _names_of_views(given, count):
 
 def _size(planes):
     for name, value in planes.items():
-        if isinstance(value, numpy.ndarray) and value.ndim >= 2:
+        if value.ndim >= 2:
             return value.shape[1:] if _gloam.is_stack(name) else value.shape[:2]
     return None
+
+
+def _way_to_a_camera(given):
+    """How a matrix becomes a camera, as the end of a sentence."""
+    shape = tuple(getattr(given, "shape", ()))
+    if shape == (4, 4):
+        return ": gloam.Camera.from_projection(matrix, 'opengl', width, height)"
+    return ": gloam.Camera.from_intrinsics(K)" if shape == (3, 3) else ""
 
 
 def _cameras(camera, fov, of_views, several):
@@ -149,7 +158,8 @@ def _cameras(camera, fov, of_views, several):
     if camera is not None and fov is not None:
         raise _words.refusal("camera and fov are both given; give one of them")
     if camera is None and fov is None:
-        raise _words.refusal("camera: none is given; give camera=gloam.Camera(fx=..., fy=..., cx=..., cy=...), or fov=DEGREES")
+        raise _words.refusal("camera: none is given; give camera=gloam.Camera(fx=..., fy=..., cx=..., cy=...), gloam.Camera.from_projection(...), or "
+                             "fov=DEGREES")
     if fov is not None:
         size = _size(of_views[0])
         if size is None:
@@ -158,19 +168,21 @@ def _cameras(camera, fov, of_views, several):
     cameras = list(camera) if isinstance(camera, (list, tuple)) else [camera]
     for item in cameras:
         if not isinstance(item, Camera):
-            raise _words.refusal(f"camera is of type {type(item).__name__}; a gloam.Camera is allowed{', or a list of them' if several else ''}")
+            raise _words.refusal(f"camera is of type {type(item).__name__}; a gloam.Camera is allowed{', or a list of them' if several else ''}"
+                                 f"{_way_to_a_camera(item)}")
     if len(cameras) != count:
         raise _words.refusal(f"there are {len(cameras)} cameras and {count} views; give one for each view")
     return cameras
 
 
-def frame_of(planes, camera, fov, views, normals):
+def frame_of(planes, camera, fov, views, surfaces):
     """A frame of arrays, and whether its views were given as lists."""
     if not planes:
         raise _words.refusal("there is neither a frame nor an array; give depth=... and camera=..., or a gloam.Frame")
     of_views, several = _of_each_view(planes)
     names = _names_of_views(views, len(of_views))
-    return _gloam.frame_of_arrays(of_views, _cameras(camera, fov, of_views, several), names, normals), several
+    of_views, notes = _arrays.planes_of_views(of_views, names)
+    return _gloam.frame_of_arrays(of_views, _cameras(camera, fov, of_views, several), names, surfaces, notes), several
 
 
 def request_words(technique, parameters, settings, options):
@@ -215,32 +227,32 @@ def _files(frame):
     return None
 
 
-def frame_for(frame, planes, camera, fov, views, normals, read):
+def frame_for(frame, planes, camera, fov, views, surfaces, read):
     """The frame to compute on, whether it is the call's own, and whether its views are a list. `read`: reads the planes needed of files."""
     if frame is None:
-        made, several = frame_of(planes, camera, fov, views, normals)
+        made, several = frame_of(planes, camera, fov, views, surfaces)
         return made, True, several
     paths = _files(frame)
     if paths is not None:
         if planes:
             raise _words.refusal(f"{_gloam.enumerate(list(planes))}: arrays do not go with a path; give gloam.read(path) and the arrays")
-        made = read(paths, _words.reading(camera, fov=fov, views=views, **normals))
+        made = read(paths, _words.reading(camera, fov=fov, views=views, **surfaces))
         return made, True, len(made.views) > 1
     if not isinstance(frame, Frame):
-        raise _words.refusal(f"frame is of type {type(frame).__name__}; a gloam.Frame, a path, or arrays by keyword are allowed")
+        raise _words.refusal(f"frame is of type {type(frame).__name__}; a gloam.Frame, a path, or arrays by keyword are allowed{', depth=array' if _arrays.is_array(frame) else ''}")
     for name, value in (("camera", camera), ("fov", fov), ("views", views)):
         if value is not None:
             raise _words.refusal(f"{name}: a gloam.Frame has its own; leave it out, or give it to gloam.read")
-    if "normal" not in planes:
-        for name, value in normals.items():
-            if value is not None:
-                raise _words.refusal(f"{name}: a gloam.Frame has its own; leave it out, or give it to gloam.read")
+    for name, value in surfaces.items():
+        if value is not None and ("depth" if name in _words.DEPTH else "normal") not in planes:
+            raise _words.refusal(f"{name}: a gloam.Frame has its own; leave it out, or give it to gloam.read")
     if not planes:
         return frame, False, len(frame.views) > 1
     of_views, several = _of_each_view(planes)
     if len(of_views) != len(frame.views):
         raise _words.refusal(f"the frame has {len(frame.views)} views, and {len(of_views)} are given of {_gloam.enumerate(list(planes))}")
-    return _gloam.with_planes(frame, of_views, normals), True, len(frame.views) > 1
+    of_views, notes = _arrays.planes_of_views(of_views, frame.views)
+    return _gloam.with_planes(frame, of_views, surfaces, notes), True, len(frame.views) > 1
 
 
 def tell(result, notes, frame, is_own, stacklevel):
@@ -252,22 +264,26 @@ def tell(result, notes, frame, is_own, stacklevel):
     _words.note(notes, stacklevel=stacklevel + 1)
 
 
-def run(technique, frame=None, *, camera=None, fov=None, views=None, device=None, settings=None, normal_space=None, normal_range=None,
-        normal_axes=None, **keywords):
+def run(technique, frame=None, *, camera=None, fov=None, views=None, device=None, settings=None, depth_is=None, near=None, far=None,
+        background=None, normals_are=None, normal_space=None, normal_range=None, normal_axes=None, **keywords):
     """Runs a technique on arrays, on a gloam.Frame or on an EXR file, and returns a gloam.Result: arrays by the names of planes.
 
     technique: a name of gloam.techniques(); "ao" stands for the default of ambient occlusion.
     frame: a gloam.Frame (planes by keyword join its own, or take their place), a path, or a list of two paths, one for each eye. Of a
         path only the planes are read that the technique needs.
-    Planes by keyword, instead of a frame: float32, C-contiguous, (height, width), or (height, width, 3) for normal, color, albedo,
-        reflectance and position; peel and stochastic, stacks of layers, are (layers, height, width). depth is in scene units along the
-        viewing axis, normal in view space. A list of arrays has one for each view. The arrays are only read, and may change or go
-        when the call has returned.
+    Planes by keyword, instead of a frame: arrays (height, width), or (height, width, 3) for normal, color, albedo, reflectance and position;
+        peel and stochastic, stacks of layers, are (layers, height, width). (1, height, width), (3, height, width) and (height, width, 4) are
+        taken too, and so are all real dtypes, bool, any strides, and arrays of torch, CuPy and others in the host's memory; float32 in C order is
+        read in place. A list of arrays has one for each view. The arrays are only read, and may change or go when the call has returned.
     camera: a gloam.Camera, or a list with one for each view; fov instead: the horizontal field of view, degrees. Of a path: a camera
         JSON too.
     views: names of the views; of a path those to read.
-    normal_space, normal_range, normal_axes: the convention of the normals, as for gloam.read. Where they are not given, normals that agree with
-        the depth in another convention alone are taken in that one, and a note says so.
+    depth_is: what depth values mean: "z" (scene units along the viewing axis; the default), "ray" (from the eye), "ndc" (0 at the near plane, 1 at
+        the far plane) or "reversed" (1 and 0).  near, far: the clipping planes, scene units, for the last two; default: the camera's.
+    background: the depth value that means background, as it is stored.
+    normals_are: the convention of the normals in one text: "view" or "world", "signed" (-1 to 1) or "unsigned" (0 to 1), and the axes, "x,-y,z" with y
+        down: "world unsigned". normal_space, normal_range, normal_axes: the same one by one. What is not stated is found by the depth: normals
+        that agree with it in another convention than view space alone are taken in that one, and a note says so.
     Parameters of the technique by keyword: radius (scene units), samples, ...; settings: the same as a dict, for names with a dot
         ({"bilateral.radius": 2}). Without a radius one is made from the frame, and the result says so.
     layers: "one", "stochastic" or "peeled", and eyes: "one" or "both", choose a variant of the technique: "gtao" with layers="peeled" is "dp-gtao".
@@ -283,14 +299,15 @@ def run(technique, frame=None, *, camera=None, fov=None, views=None, device=None
     that the technique lacks. The interpreter is free for other threads meanwhile, and Ctrl-C ends the call between two passes.
     """
     options = {name: keywords.pop(name) for name in _OPTIONS if name in keywords}
-    normals = _words.normals({"normal_space": normal_space, "normal_range": normal_range, "normal_axes": normal_axes})
+    surfaces = _words.surfaces(depth_is=depth_is, near=near, far=far, background=background, normals_are=normals_are, normal_space=normal_space,
+                               normal_range=normal_range, normal_axes=normal_axes)
     mask = options.get("only")
-    if isinstance(mask, numpy.ndarray) or _is_planes(mask):
+    if _is_planes(mask):
         keywords["mask"], options["only"] = mask, "mask"
     planes, parameters = divided(keywords)
     check_names(parameters, _OPTIONS + _NAMED)
     words, run_words = request_words(technique, parameters, settings, options)
-    made, is_own, several = frame_for(frame, planes, camera, fov, views, normals, lambda paths, reading: _gloam.read_for(paths, reading, words))
+    made, is_own, several = frame_for(frame, planes, camera, fov, views, surfaces, lambda paths, reading: _gloam.read_for(paths, reading, words))
     outcome = _gloam.run(words, made, is_own, _words.device(device), run_words, _strips(options.get("strips")))
     result = Result(outcome, several)
     tell(result, outcome.notes, made, is_own, stacklevel=2)

@@ -177,21 +177,58 @@ def _note_foreign_folders():
         note([sentence], stacklevel=4)
 
 
-#: The keywords that state the convention of normals.
-NORMALS = ("normal_space", "normal_range", "normal_axes")
+#: The keywords that state what depth stands for, and those that state the convention of normals.
+DEPTH = ("depth_is", "near", "far", "background")
+NORMALS = ("normals_are", "normal_space", "normal_range", "normal_axes")
+_NORMALS_ARE = {"view": "normal_space", "world": "normal_space", "signed": "normal_range", "unsigned": "normal_range"}
 
 
-def normals(given):
-    """The words of the convention of normals, of keywords that may be among them."""
-    return {name: text(name, given.get(name)) for name in NORMALS}
+def _normals_are(value):
+    """The words that one text such as "world unsigned x,-y,z" stands for."""
+    words = {}
+    for word in (text("normals_are", value) or "").split():
+        name = "normal_axes" if "," in word else _NORMALS_ARE.get(word)
+        if name is None:
+            raise refusal(f"normals_are {word} is not allowed{_gloam.suggestion(word, list(_NORMALS_ARE))}; 'view' or 'world', 'signed' or "
+                          "'unsigned', and axes such as 'x,-y,z' are, with spaces between")
+        if name in words:
+            raise refusal(f"normals_are {_shown(value)} states two of {words[name]} and {word}; give one of them")
+        words[name] = word
+    if value is not None and not words:
+        raise refusal("normals_are is empty; 'view' or 'world' is allowed, for example")
+    return words
+
+
+def _normals(given):
+    """The words of the convention of normals."""
+    words = {name: text(name, given.get(name)) for name in NORMALS[1:]}
+    for name, word in _normals_are(given.get("normals_are")).items():
+        if words[name] is not None:
+            raise refusal(f"normals_are and {name} both state the normals; give one of them")
+        words[name] = word
+    return words
+
+
+def _depth(given):
+    """The words of what depth stands for."""
+    return {"depth_is": text("depth_is", given.get("depth_is")),
+            **{name: number(name, given.get(name)) for name in ("near", "far", "background")}}
+
+
+def surfaces(**given):
+    """The words of what depth and normals stand for, of the keywords DEPTH and NORMALS."""
+    return {**_depth(given), **_normals(given)}
 
 
 def reading(camera=None, **words):
     """The words of how a file is read."""
     if camera is not None and not isinstance(camera, _gloam.Camera):
         camera = path("camera", camera)
-    checks = {"fov": number, "near": number, "far": number, "background": number, "depth": text, "views": names, **{name: text for name in NORMALS}}
-    read = {name: checks[name](name, value) for name, value in words.items() if name in checks}
+    if words.get("depth") is not None:
+        if words.get("depth_is") is not None:
+            raise refusal("depth and depth_is both state the depth; give one of them")
+        words["depth_is"] = text("depth", words["depth"])
+    read = {"fov": number("fov", words.get("fov")), "views": names("views", words.get("views")), **_depth(words), **_normals(words)}
     if "channels" in words and words["channels"] is not None:
         channels = words["channels"]
         if not isinstance(channels, dict) or not all(isinstance(item, str) for pair in channels.items() for item in pair):

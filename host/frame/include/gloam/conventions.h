@@ -23,6 +23,9 @@ struct StatedDepth {
       offset;               ///< what is stored, times the scale, plus the offset, is what the convention says
   bool is_of_shot = false;  ///< frames of a shot are read alike: what one of them shows is told, and not taken
 };
+inline bool states_anything(const StatedDepth& depth) {
+  return depth.convention != DepthConvention::automatic || depth.near || depth.far || depth.background;
+}
 
 enum class NormalSpace { automatic, view, world };
 

@@ -25,6 +25,9 @@ struct Arrays {
   ///   are taken in that one, with a note in `Frame::assumed`, where `normals` does not state theirs.
   std::map<std::string, std::span<const float>> planes = {};
   NormalConvention normals = {};  ///< of the plane "normal", where it is known
+  /// Of the plane "depth", if it is no distance along the viewing axis, or its background or clipping planes are known: as for files
+  /// (ReadOptions), with the camera's near and far where these are not stated.
+  StatedDepth depth = {};
 };
 
 /// A camera with square pixels and its principal point in the middle of the image; `degrees`: horizontal field of view, 1 to 179.
