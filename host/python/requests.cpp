@@ -101,6 +101,11 @@ ReadOptions read_options(const py::dict& words) {
   const StatedDepth depth = stated_depth(words);
   options.depth = depth.convention, options.near = depth.near, options.far = depth.far;
   options.background = depth.background;
+  options.depth_scale = depth.scale, options.depth_offset = depth.offset;
+  take_choice(words, "depth_bytes", depth_bytes_words, options.depth_bytes);
+  if (has(words, "plane_files"))
+    for (const auto& [plane, file] : taken<std::map<std::string, std::string>>(words, "plane_files"))
+      options.plane_files[plane] = file;
   options.normals = normal_convention(words);
   options.views = names(words, "views");
   if (has(words, "channels")) options.channels = taken<std::map<std::string, std::string>>(words, "channels");
@@ -122,6 +127,8 @@ StatedDepth stated_depth(const py::dict& words) {
   if (has(words, "near")) depth.near = taken<double>(words, "near");
   if (has(words, "far")) depth.far = taken<double>(words, "far");
   if (has(words, "background")) depth.background = taken<float>(words, "background");
+  if (has(words, "depth_scale")) depth.scale = taken<double>(words, "depth_scale");
+  if (has(words, "depth_offset")) depth.offset = taken<double>(words, "depth_offset");
   return depth;
 }
 

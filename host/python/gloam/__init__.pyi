@@ -162,7 +162,8 @@ class Sequence:
     def __init__(self, pattern: Union[Path, _Sequence[Path]], *, frames: Union[str, int, _Sequence[int], None] = None,
                  missing: Optional[str] = None, camera: Union[Camera, Path, None] = None, fov: Optional[float] = None,
                  depth_is: Optional[str] = None, depth: Optional[str] = None, near: Optional[float] = None, far: Optional[float] = None,
-                 background: Optional[float] = None, normals_are: Optional[str] = None, normal_space: Optional[str] = None, normal_range: Optional[str] = None,
+                 background: Optional[float] = None, depth_scale: Optional[float] = None, depth_offset: Optional[float] = None,
+                 depth_bytes: Optional[str] = None, plane_files: Optional[Dict[str, Path]] = None, normals_are: Optional[str] = None, normal_space: Optional[str] = None, normal_range: Optional[str] = None,
                  normal_axes: Optional[str] = None, views: Union[str, List[str], None] = None,
                  channels: Optional[Dict[str, str]] = None) -> None: ...
     @property
@@ -224,7 +225,7 @@ class Technique:
 def run(technique: str, frame: Union[Frame, Path, _Sequence[Path], None] = None, *, camera: Union[Camera, List[Camera], Path, None] = None,
         fov: Optional[float] = None, views: Union[str, List[str], None] = None, device: Union[Device, str, None] = None,
         settings: Optional[Dict[str, Setting]] = None, depth_is: Optional[str] = None, near: Optional[float] = None,
-        far: Optional[float] = None, background: Optional[float] = None, normals_are: Optional[str] = None,
+        far: Optional[float] = None, background: Optional[float] = None, depth_scale: Optional[float] = None, depth_offset: Optional[float] = None, normals_are: Optional[str] = None,
         normal_space: Optional[str] = None, normal_range: Optional[str] = None, normal_axes: Optional[str] = None, **keywords: Any) -> Result: ...
 def device_layout(width: int, height: int) -> DeviceLayout: ...
 def enqueue(technique: str, planes: Dict[str, Union[DevicePlane, List[DevicePlane]]],
@@ -236,7 +237,7 @@ def auto(frame: Union[Frame, Path, _Sequence[Path], None] = None, *, budget: Opt
          ambient: Optional[Point] = None, camera: Union[Camera, List[Camera], Path, None] = None, fov: Optional[float] = None,
          views: Union[str, List[str], None] = None, device: Union[Device, str, None] = None,
          settings: Optional[Dict[str, Setting]] = None, depth_is: Optional[str] = None, near: Optional[float] = None,
-         far: Optional[float] = None, background: Optional[float] = None, normals_are: Optional[str] = None,
+         far: Optional[float] = None, background: Optional[float] = None, depth_scale: Optional[float] = None, depth_offset: Optional[float] = None, normals_are: Optional[str] = None,
          normal_space: Optional[str] = None, normal_range: Optional[str] = None, normal_axes: Optional[str] = None, **keywords: Any) -> AutoResult: ...
 def pick(frame: Union[Frame, Path, None] = None, *, budget: Optional[float] = None, error: Optional[float] = None, by: str = "rmse",
          truth: Union[Frame, Path, _Sequence[Union[Frame, Path]], None] = None, techniques: Union[str, List[str], None] = None,
@@ -244,7 +245,8 @@ def pick(frame: Union[Frame, Path, None] = None, *, budget: Optional[float] = No
          device: Union[Device, str, None] = None, **reading: Any) -> Dict[str, Any]: ...
 def read(file: Union[Path, _Sequence[Path]], *, camera: Union[Camera, Path, None] = None, fov: Optional[float] = None,
          depth_is: Optional[str] = None, depth: Optional[str] = None, near: Optional[float] = None, far: Optional[float] = None,
-         background: Optional[float] = None, normals_are: Optional[str] = None, normal_space: Optional[str] = None, normal_range: Optional[str] = None, normal_axes: Optional[str] = None,
+         background: Optional[float] = None, depth_scale: Optional[float] = None, depth_offset: Optional[float] = None,
+                 depth_bytes: Optional[str] = None, plane_files: Optional[Dict[str, Path]] = None, normals_are: Optional[str] = None, normal_space: Optional[str] = None, normal_range: Optional[str] = None, normal_axes: Optional[str] = None,
          views: Union[str, List[str], None] = None, channels: Optional[Dict[str, str]] = None,
          planes: Union[str, List[str], None] = None, as_stored: bool = False) -> Frame: ...
 def write(path: Path, what: Union[Frame, Result, Mapping[str, Plane], Any], *, plane: Optional[str] = None, camera: Union[Camera, List[Camera], None] = None,

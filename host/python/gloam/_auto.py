@@ -34,7 +34,7 @@ class AutoResult(Result):
 
 
 def auto(frame=None, *, budget=None, error=None, mask=None, measure=False, composite=False, color_holds=None, ambient=None, camera=None,
-         fov=None, views=None, device=None, settings=None, depth_is=None, near=None, far=None, background=None, normals_are=None,
+         fov=None, views=None, device=None, settings=None, depth_is=None, near=None, far=None, background=None, depth_scale=None, depth_offset=None, normals_are=None,
          normal_space=None, normal_range=None, normal_axes=None, **keywords):
     """Looks at a frame, computes only the effects that it calls for, and returns a gloam.AutoResult: their planes as arrays, and why.
 
@@ -56,7 +56,7 @@ def auto(frame=None, *, budget=None, error=None, mask=None, measure=False, compo
     colour, gloam.MissingPlanes where the frame has what no effect needs. Ctrl-C ends the call between two passes.
     """
     options = {name: keywords.pop(name) for name in _OPTIONS if name in keywords}
-    surfaces = _words.surfaces(depth_is=depth_is, near=near, far=far, background=background, normals_are=normals_are, normal_space=normal_space,
+    surfaces = _words.surfaces(depth_is=depth_is, near=near, far=far, background=background, depth_scale=depth_scale, depth_offset=depth_offset, normals_are=normals_are, normal_space=normal_space,
                                normal_range=normal_range, normal_axes=normal_axes)
     planes, parameters = _run.divided(keywords)
     _run.check_names(parameters, _OPTIONS + _NAMED)

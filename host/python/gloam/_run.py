@@ -265,7 +265,7 @@ def tell(result, notes, frame, is_own, stacklevel):
 
 
 def run(technique, frame=None, *, camera=None, fov=None, views=None, device=None, settings=None, depth_is=None, near=None, far=None,
-        background=None, normals_are=None, normal_space=None, normal_range=None, normal_axes=None, **keywords):
+        background=None, depth_scale=None, depth_offset=None, normals_are=None, normal_space=None, normal_range=None, normal_axes=None, **keywords):
     """Runs a technique on arrays, on a gloam.Frame or on an EXR file, and returns a gloam.Result: arrays by the names of planes.
 
     technique: a name of gloam.techniques(); "ao" stands for the default of ambient occlusion.
@@ -280,7 +280,8 @@ def run(technique, frame=None, *, camera=None, fov=None, views=None, device=None
     views: names of the views; of a path those to read.
     depth_is: what depth values mean: "z" (scene units along the viewing axis; the default), "ray" (from the eye), "ndc" (0 at the near plane, 1 at
         the far plane) or "reversed" (1 and 0).  near, far: the clipping planes, scene units, for the last two; default: the camera's.
-    background: the depth value that means background, as it is stored.
+    background: the depth value that means background, as it is stored.  depth_scale, depth_offset: what is stored, times the scale, plus the
+        offset, is what depth_is says.
     normals_are: the convention of the normals in one text: "view" or "world", "signed" (-1 to 1) or "unsigned" (0 to 1), and the axes, "x,-y,z" with y
         down: "world unsigned". normal_space, normal_range, normal_axes: the same one by one. What is not stated is found by the depth: normals
         that agree with it in another convention than view space alone are taken in that one, and a note says so.
@@ -299,7 +300,7 @@ def run(technique, frame=None, *, camera=None, fov=None, views=None, device=None
     that the technique lacks. The interpreter is free for other threads meanwhile, and Ctrl-C ends the call between two passes.
     """
     options = {name: keywords.pop(name) for name in _OPTIONS if name in keywords}
-    surfaces = _words.surfaces(depth_is=depth_is, near=near, far=far, background=background, normals_are=normals_are, normal_space=normal_space,
+    surfaces = _words.surfaces(depth_is=depth_is, near=near, far=far, background=background, depth_scale=depth_scale, depth_offset=depth_offset, normals_are=normals_are, normal_space=normal_space,
                                normal_range=normal_range, normal_axes=normal_axes)
     mask = options.get("only")
     if _is_planes(mask):

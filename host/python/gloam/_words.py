@@ -178,7 +178,7 @@ def _note_foreign_folders():
 
 
 #: The keywords that state what depth stands for, and those that state the convention of normals.
-DEPTH = ("depth_is", "near", "far", "background")
+DEPTH = ("depth_is", "near", "far", "background", "depth_scale", "depth_offset")
 NORMALS = ("normals_are", "normal_space", "normal_range", "normal_axes")
 _NORMALS_ARE = {"view": "normal_space", "world": "normal_space", "signed": "normal_range", "unsigned": "normal_range"}
 
@@ -212,7 +212,7 @@ def _normals(given):
 def _depth(given):
     """The words of what depth stands for."""
     return {"depth_is": text("depth_is", given.get("depth_is")),
-            **{name: number(name, given.get(name)) for name in ("near", "far", "background")}}
+            **{name: number(name, given.get(name)) for name in DEPTH[1:]}}
 
 
 def surfaces(**given):
@@ -229,6 +229,13 @@ def reading(camera=None, **words):
             raise refusal("depth and depth_is both state the depth; give one of them")
         words["depth_is"] = text("depth", words["depth"])
     read = {"fov": number("fov", words.get("fov")), "views": names("views", words.get("views")), **_depth(words), **_normals(words)}
+    if words.get("depth_bytes") is not None:
+        read["depth_bytes"] = text("depth_bytes", words["depth_bytes"])
+    if words.get("plane_files") is not None:
+        files = words["plane_files"]
+        if not isinstance(files, dict) or not all(isinstance(plane, str) for plane in files):
+            raise refusal(f"plane_files {_shown(files)} is not allowed; a dict is, such as {{'normal': 'n.png'}}")
+        read["plane_files"] = {_as_utf8(plane): path(f"plane_files[{plane!r}]", file) for plane, file in files.items()}
     if "channels" in words and words["channels"] is not None:
         channels = words["channels"]
         if not isinstance(channels, dict) or not all(isinstance(item, str) for pair in channels.items() for item in pair):

@@ -24,7 +24,8 @@ struct StatedDepth {
   bool is_of_shot = false;  ///< frames of a shot are read alike: what one of them shows is told, and not taken
 };
 inline bool states_anything(const StatedDepth& depth) {
-  return depth.convention != DepthConvention::automatic || depth.near || depth.far || depth.background;
+  return depth.convention != DepthConvention::automatic || depth.near || depth.far || depth.background || depth.scale ||
+         depth.offset;
 }
 
 enum class NormalSpace { automatic, view, world };
