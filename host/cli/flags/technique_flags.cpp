@@ -3,9 +3,11 @@
 #include <map>
 
 #include "cli/flags/options.h"
+#include "cli/flags/wrap.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "run/kept_folders.h"
+#include "run/kernel_cache.h"
 #include "technique/variant_words.h"
 
 namespace gloam::cli {
@@ -27,6 +29,18 @@ std::string extras_in_words() {
     last = by;
   }
   return fmt::format("{}", fmt::join(words, "; "));
+}
+
+/// To a person who waits: a first run takes seconds, in which nothing moves. Kernels that are kept say that it was told.
+void tell_of_first_run(const DeviceInfo& info) {
+  if (!shows_progress() || !keeps_no_kernels_yet(info)) return;
+  const std::string text = fmt::format(
+      "first run on '{}': kernels are compiled, about a second for each that a technique has, and kept: later runs "
+      "start at "
+      "once",
+      printable(info.name));
+  fmt::print(stderr, "{}\n", wrapped(text, 0, 2));
+  std::fflush(stderr);
 }
 
 }  // namespace
@@ -90,6 +104,7 @@ void DeviceFlags::add_to(CLI::App& app, const std::string& group) {
 
 Device DeviceFlags::open() const {
   Device opened(device, !no_tuning);
+  tell_of_first_run(opened.info());
   if (const std::string foreign = foreign_folders_note(); !foreign.empty()) note({foreign});
   return opened;
 }
