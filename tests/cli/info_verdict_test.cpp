@@ -27,6 +27,7 @@ TEST_F(Info, BeginsWithTheVerdict) {
       "0.39 scene units: gloam ao " +
           loggia);
   EXPECT_NE(verdict(loggia, {"--fov", "60"}).find("by the camera that was given"), std::string::npos);
+  EXPECT_TRUE(verdict(loggia, {"--fov", "60"}).ends_with(": gloam ao " + loggia + " --fov 60"));
   write_frame(path("depth.exr"), small_frame());
   EXPECT_NE(verdict(path("depth.exr")).find("from depth, of which normals are made, "), std::string::npos);
   Frame blind = small_frame();

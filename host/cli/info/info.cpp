@@ -206,6 +206,7 @@ struct InfoFlags {
   FrameChoice choice;
   FrameFlags frame_flags;
   JsonFlag json;
+  const CLI::App* app = nullptr;
 
   /// Pictures of one plane need that plane alone.
   bool is_pictures_only() const { return views.any() && picture.empty() && json.path.empty(); }
@@ -288,7 +289,7 @@ void describe(const InfoFlags& flags, std::vector<std::string> pictures) {
   if (flags.json.only_json()) return;
   const bool has_surfaces = pixels_at_median_depth(frame).has_value();
   const Json& from = document["camera_from"];
-  const FoundOnFrame found{abilities.runs, lacked_by(abilities, technique_for("ao")),
+  const FoundOnFrame found{abilities.runs, lacked_by(abilities, technique_for("ao")), reading_text(*flags.app),
                            from.is_null() ? "" : from.get<std::string>(),
                            has_surfaces ? std::optional(suggested.value) : std::nullopt};
   fmt::print("{}\n\n", wrapped(verdict_on(file, found), 0, 0));
@@ -330,6 +331,7 @@ void add_info(CLI::App& app) {
   add_frames(*command, flags->choice);
   flags->frame_flags.add_to(*command);
   flags->json.add_to(*command);
+  flags->app = command;
   command->footer(
       "Examples:\n  gloam info frame.exr\n  gloam info frame.exr --picture planes.png\n"
       "  gloam info display.exr --sheet views.png\n"

@@ -52,8 +52,9 @@ std::string verdict_on(const FrameFile& file, const FoundOnFrame& found) {
   const std::string radius =
       found.radius ? fmt::format("within a radius of {:.4g} scene units", *found.radius) : "and no surface is visible";
   const std::string word = technique == technique_for("ao") ? "ao" : technique;
-  return fmt::format("Ambient occlusion can be computed: from {}, {}, {}: gloam {} {}",
-                     sources_in_words(file, technique), camera_in_words(found.camera_from), radius, word, path);
+  return fmt::format("Ambient occlusion can be computed: from {}, {}, {}: gloam {} {}{}",
+                     sources_in_words(file, technique), camera_in_words(found.camera_from), radius, word, path,
+                     printable(found.flags));
 }
 
 std::string runs_in_words(const std::vector<std::string>& runs) {

@@ -14,6 +14,7 @@ namespace gloam::cli {
 struct FoundOnFrame {
   std::vector<std::string> runs;  ///< techniques that can run
   std::string lacks;              ///< what the default technique of ambient occlusion lacks, in words
+  std::string flags;              ///< those that say how the frame is read, as text
   std::string camera_from;        ///< "header", "json", "fit", "flag"; empty: there is none
   std::optional<double> radius;   ///< scene units; none where no surface is visible
 };
