@@ -117,4 +117,12 @@ for scheme, prefix in (('deb_system', '/usr'), ('posix_local', '/usr/local'), ('
   " COMPONENT python)
 endif()
 
+# --- What is installed, and nothing else: the target of script/build.
+add_custom_target(product)
+foreach(part gloam gloam_core gloam_frames gloam_pictures gloam_scene gloam_measure gloam_python python_package manual completion blender_addon)
+  if(TARGET ${part})
+    add_dependencies(product ${part})
+  endif()
+endforeach()
+
 include(${PROJECT_SOURCE_DIR}/cmake/package.cmake)

@@ -12,6 +12,8 @@
 #include "base/json_text.h"
 #include "cli/completion/completion.h"
 #include "cli/flags/options.h"
+#include "cli/help/commands.h"
+#include "cli/help/formatter.h"
 #include "cli/list/techniques.h"
 #include "cli/process/same_mathematics.h"
 #include "cli/process/words.h"
@@ -118,7 +120,7 @@ std::string usage_message(CLI::App& app, const CLI::ParseError& error) {
   const std::string command = parsed.empty() ? "" : parsed.front()->get_name();
   const std::string help = fmt::format("(gloam {}{}--help)", command, command.empty() ? "" : " ");
   const std::vector<std::string> extras = app.remaining(true);
-  if (command.empty() && !extras.empty()) return meant_by_first_word(app, extras.front());
+  if (command.empty() && !extras.empty()) return meant_by_first_word(extras.front());
   if (!command.empty())
     if (const std::string meant = meant_without_technique(*parsed.front()); !meant.empty()) return meant;
   if (!extras.empty()) {
@@ -161,12 +163,33 @@ void print_parameters_of(CLI::App& app, const std::vector<std::string>& words) {
   }
 }
 
-/// Whether --help was given, among any other arguments.
-bool asks_for_help(const CLI::App& app) {
-  for (const CLI::App* command : app.get_subcommands()) {
-    if (command->get_help_ptr()->count() > 0) return true;
+/// Whether a flag was given, among any other arguments.
+bool asks_for(const CLI::App& app, const std::string& flag) {
+  for (const CLI::App* command : app.get_subcommands())
+    if (command->get_option(flag)->count() > 0) return true;
+  return app.get_option(flag)->count() > 0;
+}
+
+/// `gloam help --only`, and `gloam help lanes`. Throws UsageError for a word that is nothing, with what was probably meant.
+int print_help_of_word(CLI::App& app, const std::string& word) {
+  const std::string help = help_of_flag(app, word.starts_with("-") ? word : "--" + word);
+  if (help.empty()) throw UsageError("{}", meant_by_first_word(word));
+  fmt::print("{}", help);
+  return 0;
+}
+
+/// --help, --help-all or --version, with `words` on the command line.
+int show(CLI::App& app, const CLI::Success& what, const std::vector<std::string>& words) {
+  const bool has_command = !app.get_subcommands().empty();
+  if (!has_command && !app.get_option_no_throw(words.front())) return print_help_of_word(app, words.front());
+  const bool is_all = what.get_name() == CLI::CallForAllHelp().get_name();
+  if (is_all && !has_command) {
+    fmt::print("{}{}", app.help(), help_of_all_commands(app));
+    return 0;
   }
-  return app.get_help_ptr()->count() > 0;
+  const int status = app.exit(what);
+  print_parameters_of(app, words);
+  return status;
 }
 
 int run_command(int argc, char** argv) {
@@ -175,8 +198,8 @@ int run_command(int argc, char** argv) {
   app.footer(
       "Examples:\n"
       "  gloam ao frame.exr\n"
+      "  gloam run ao frame.exr -o ao.exr --radius 0.3\n"
       "  gloam info frame.exr\n"
-      "  gloam run hbao+ frame.exr -o ao.exr --radius 0.3\n"
       "  gloam compare ao.exr truth.exr -o difference.png\n"
       "  gloam capture colonnade -o frame.exr --size 960x540\n"
       "  gloam reference ao frame.exr -o truth.exr --radius 0.5\n"
@@ -185,28 +208,17 @@ int run_command(int argc, char** argv) {
       "  gloam view frame.exr ao.exr\n"
       "  gloam set make gloam-1\n"
       "  gloam stress hbao+\n"
-      "gloam COMMAND --help shows a command's flags. Every technique is a command too: gloam ao frame.exr is\n"
-      "gloam run ao frame.exr -o frame_ao.exr.");
-  app.set_version_flag("-V,--version", "gloam " GLOAM_VERSION);
+      "gloam COMMAND --help shows the flags of a command, --help-all all of them where there are many, and gloam help "
+      "WORD tells\n"
+      "of a flag or a technique. Every technique is a command too: gloam ao frame.exr is gloam run ao frame.exr -o "
+      "frame_ao.exr.");
+  app.formatter(std::make_shared<HelpFormatter>());
+  app.set_help_flag("-h,--help", "this help");
+  app.set_help_all_flag("--help-all", "this help with all flags, also those that few need");
+  app.set_version_flag("-V,--version", "gloam " GLOAM_VERSION, "the version");
   app.require_subcommand(1);
   app.name("gloam");
-  add_info(app);
-  add_run(app);
-  add_compare(app);
-  add_plan(app);
-  add_list(app);
-  add_capture(app);
-  add_reference(app);
-  add_bench(app);
-  add_score(app);
-  add_pick(app);
-  add_auto(app);
-  add_report(app);
-  add_leaderboard(app);
-  add_view(app);
-  add_set(app);
-  add_stress(app);
-  add_doctor(app);
+  add_commands(app);
   add_completion(app, settable_by);
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) add_quiet_flag(*command);
   const std::vector<std::string> words = completed_words(words_of(argc, argv));
@@ -216,18 +228,14 @@ int run_command(int argc, char** argv) {
     fmt::print("{}", app.help());
     return UsageError("").exit_status();
   }
-  const auto show = [&](const CLI::Success& what) {
-    const int status = app.exit(what);  // --help, --version
-    print_parameters_of(app, words);
-    return status;
-  };
   try {
     app.parse(with_parameter_flags(app, words));
   } catch (const CLI::Success& success) {
-    return show(success);
+    return show(app, success, words);
   } catch (const UsageError&) {  // a value that is not allowed
-    if (!asks_for_help(app)) throw;
-    return show(CLI::CallForHelp());
+    if (asks_for(app, "--help-all")) return show(app, CLI::CallForAllHelp(), words);
+    if (!asks_for(app, "--help")) throw;
+    return show(app, CLI::CallForHelp(), words);
   } catch (const CLI::ParseError& error) {
     throw UsageError("{}", usage_message(app, error));
   }

@@ -104,6 +104,11 @@ std::string camera_line(const Json& camera) {
   return line;
 }
 
+bool is_of_blender(const FrameFile& file) {
+  const auto has_text = [&](const char* name) { return !file.text_attribute(name).empty(); };
+  return has_text("BlenderMultiChannel") || (has_text("Scene") && has_text("File") && has_text("Date"));
+}
+
 std::vector<std::string> lines_for_blender(const FrameFile& file) {
   const std::vector<std::string>& views = file.views();
   const auto is_known = [&](const std::string& view) { return file.camera(view).has_value(); };

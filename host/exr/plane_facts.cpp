@@ -61,6 +61,12 @@ std::vector<PlaneFacts> results(std::vector<Sums>& sums, const FrameFile& file) 
   return facts;
 }
 
+/// Whether a channel is the luminance that gloam wrote beside its own result for other programs (`WriteOptions::shows_result`).
+bool is_own_copy(const Headers& headers, const FileChannel& channel) {
+  const std::string end = channel.name.substr(channel.name.rfind('.') + 1);
+  return end == "Y" && !headers.text_for_part(channel.part, "gloamTechnique").empty();
+}
+
 }  // namespace
 
 std::vector<PlaneFacts> facts_of(const FrameFile& file, const Frame& frame) {
@@ -89,12 +95,13 @@ std::vector<std::string> unread_channels(const FrameFile& file) {
   for (const PlaneSource& source : file.planes()) {
     for (const ChannelSource& channel : source.channels) read.emplace(channel.part, channel.name);
   }
-  const std::vector<FileChannel> all = open_exr(file.path(), {}).headers.channels();
+  const ExrFile opened = open_exr(file.path(), {});
+  const std::vector<FileChannel> all = opened.headers.channels();
   std::map<std::string, int> parts;  // that have a channel of this name
   for (const FileChannel& channel : all) ++parts[channel.name];
   std::vector<std::string> unread;
   for (const FileChannel& channel : all) {
-    if (read.contains({channel.part, channel.name})) continue;
+    if (read.contains({channel.part, channel.name}) || is_own_copy(opened.headers, channel)) continue;
     const std::string part = channel.part_name.empty() ? std::to_string(channel.part) : channel.part_name;
     unread.push_back(parts.at(channel.name) > 1 ? part + ":" + channel.name : channel.name);
   }

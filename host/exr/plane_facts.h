@@ -22,7 +22,7 @@ std::vector<PlaneFacts> facts_of(const FrameFile& file, const Frame& frame);
 /// As `facts_of`, for a frame that was surveyed with all planes: decodes them a few rows at a time.
 std::vector<PlaneFacts> facts_by_rows(FrameFile& file, const Frame& frame);
 
-/// Channels that belong to no plane; where several parts have one of a name, as --plane takes it: PART:CHANNEL.
+/// Channels that belong to no plane, without gloam's own copies of results (Y); where several parts have one of a name, as --plane takes it: PART:CHANNEL.
 std::vector<std::string> unread_channels(const FrameFile& file);
 
 }  // namespace gloam

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "base/file_ledger.h"
 #include "base/files.h"
 #include "base/json_text.h"
 #include "gloam/error.h"
@@ -34,7 +35,16 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   return files;
 }
 
-Json document_of(const fs::path& file) { return ordered_json_of_text(read_text(file), file.string()); }
+/// Only looked at: what the leaderboard itself wrote may be written again.
+Json document_of(const fs::path& file) {
+  const LooksAtFiles looks;
+  return ordered_json_of_text(read_text(file), file.string());
+}
+
+/// Whether a document is that of an earlier `gloam leaderboard --json`.
+bool is_of_leaderboard(const Json& document) {
+  return document.is_object() && document.contains("page") && document.contains("boards");
+}
 
 void check_one_version(const Board& board, const Results& results, const Source& added) {
   const Source& first = results.files[board.files.front()];
@@ -82,6 +92,8 @@ Results read_results(const fs::path& folder) {
   for (const fs::path& file : files_in(folder)) {
     const std::string name = file.lexically_relative(folder).generic_string();
     const Json document = document_of(file);
+    if (is_of_leaderboard(document)) continue;
+    reads_file(file, name);
     if (report::is_of_hard_cases(document)) {
       report::HardCases found = report::hard_cases_of(document, file);
       results.stability.push_back({name, found.device, found.techniques});
@@ -95,7 +107,8 @@ Results read_results(const fs::path& folder) {
     }
   }
   if (results.files.empty())
-    throw Error("{}: holds hard cases alone; add a file of gloam bench or gloam score", folder.string());
+    throw Error("{}: holds {}; add a file of gloam bench or gloam score", folder.string(),
+                results.stability.empty() ? "an earlier leaderboard alone" : "hard cases alone");
   order(results.boards);
   return results;
 }

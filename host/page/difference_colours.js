@@ -1,10 +1,10 @@
 // The colours of differences.
 
-/// Blue below zero, orange above, the colour of the page at zero.
+/// Too dark is blue, too bright is red, as in the pictures of gloam compare (picture/differences.cpp), from the colour of the page at zero.
 const differenceColours = () =>
     (matchMedia('(prefers-color-scheme: dark)').matches ?
-         {below: [96, 165, 250], zero: [24, 26, 29], above: [251, 146, 60]} :
-         {below: [24, 90, 189], zero: [250, 249, 246], above: [200, 80, 10]});
+         {below: [134, 175, 232], zero: [24, 26, 29], above: [226, 150, 137]} :
+         {below: [17, 70, 137], zero: [247, 247, 247], above: [125, 36, 26]});
 
 function mixed(colours, t) {
   const end = t < 0 ? colours.below : colours.above, share = Math.min(1, Math.abs(t));

@@ -1,5 +1,20 @@
 // Tables that sort.
 
+/// A line that says what of a table is out of sight; empty where all is shown.
+function noteOnScrolling(box) {
+  const note = element('p', {class: 'scrolls'});
+  const tell = () => {
+    const more = [
+      box.scrollHeight > box.clientHeight + 1 ? 'more rows below' : null,
+      box.scrollWidth > box.clientWidth + 1 ? 'more columns to the right' : null
+    ].filter(Boolean);
+    note.hidden = !more.length;
+    note.textContent = more.length ? `The table scrolls: ${more.join(', ')}.` : '';
+  };
+  new ResizeObserver(tell).observe(box);
+  return note;
+}
+
 /// A table whose headings sort. A column: {name, value(row), text?(value, row), cell?(row), number?, words?, help?, most?}; `most`: most
 /// is best, so a first click sorts downwards. Rows without a value come last in either order. The order stays while a place gets other
 /// rows or columns: `place.sorting` = {column (its name), down}. `options.pick(row)`, if given, is called for a click on a row.
@@ -52,6 +67,6 @@ function sortedTable(place, columns, rows, options = {}) {
   const kept = scrolled ? [scrolled.scrollLeft, scrolled.scrollTop] : [0, 0];
   const box =
       element('div', {class: 'scroll'}, element('table', {}, element('thead', {}, element('tr', {}, heads)), body));
-  place.replaceChildren(box);
+  place.replaceChildren(box, noteOnScrolling(box));
   [box.scrollLeft, box.scrollTop] = kept;
 }

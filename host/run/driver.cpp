@@ -156,6 +156,13 @@ bool is_of_pocl(const fs::path& entry) {
 
 }  // namespace
 
+bool pocl_keeps_nothing() {
+  std::error_code failed;
+  for (fs::directory_iterator at(kept_kernels(), failed), end; !failed && at != end; at.increment(failed))
+    if (is_of_pocl(at->path()) && at->is_directory(failed)) return false;
+  return true;
+}
+
 DriverAtWork::DriverAtWork() { ++at_work; }
 DriverAtWork::~DriverAtWork() { --at_work; }
 

@@ -6,6 +6,9 @@
 
 namespace gloam {
 
+/// Whether PoCL keeps no compiled kernel: what runs next is compiled first.
+bool pocl_keeps_nothing();
+
 /// While an object of this class lives, the OpenCL driver is at work, and a signal that ends the process comes from the driver.
 class DriverAtWork {
  public:

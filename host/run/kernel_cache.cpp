@@ -8,6 +8,7 @@
 #include "base/files.h"
 #include "base/hash.h"
 #include "gloam/error.h"
+#include "run/driver.h"
 #include "run/kept_folders.h"
 
 namespace gloam {
@@ -127,6 +128,11 @@ KernelCache::Check KernelCache::check() const {
 KernelCache own_kernel_cache() {
   const fs::path& folder = cache_folder().folder;
   return KernelCache(folder.empty() ? folder : folder / "kernels");
+}
+
+bool keeps_no_kernels_yet(const DeviceInfo& device) {
+  if (device.platform == "Portable Computing Language") return pocl_keeps_nothing();
+  return !device.keeps_kernels && entries_of(own_kernel_cache().folder()).empty();
 }
 
 std::string damaged_kernels_note() {

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "gloam/device.h"
+
 namespace gloam {
 
 /// A folder with one file for each compiled program. A file names what it was compiled from and for, and holds a hash of the
@@ -37,6 +39,9 @@ class KernelCache {
 
 /// That of this user, below `cache_folder`.
 KernelCache own_kernel_cache();
+
+/// Whether no compiled kernel is kept for a device, as before its first run. False for a driver that keeps them where gloam does not know.
+bool keeps_no_kernels_yet(const DeviceInfo& device);
 
 /// How many kept programs this process found damaged, in one sentence; empty: none.
 std::string damaged_kernels_note();

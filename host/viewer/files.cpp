@@ -148,6 +148,13 @@ void sort_planes(std::vector<ViewedFile>& files) {
                        [&](const std::string& a, const std::string& b) { return count[a] > count[b]; });
 }
 
+/// The same for the page, which opens on the first: depth, which most files have, is what nobody comes for.
+Names results_first(Names planes) {
+  std::stable_partition(planes.begin(), planes.end(),
+                        [](const std::string& plane) { return !results_among({plane}).empty(); });
+  return planes;
+}
+
 std::vector<std::pair<std::string, std::string>> facts_of(const FrameFile& file, const ViewChoice& choice) {
   std::vector<std::pair<std::string, std::string>> facts;
   const auto add = [&](const char* name, const std::string& text) {
@@ -191,7 +198,7 @@ void add_frames_of(const std::vector<ViewedFile>& files, const ViewChoice& choic
     for (const ViewedFrame& frame : viewed.frames) {
       FrameFile file(frame.path, frame.options);
       const Frame read = file.read(with_depth(frame.planes, frame.options, file));
-      page.add(read, frame.planes, texts_of(file, frame, choice));
+      page.add(read, results_first(frame.planes), texts_of(file, frame, choice));
       if (progress) progress(++done, all);
     }
   }

@@ -45,12 +45,25 @@ function settle(side, plane = side.plane, view = side.view) {
   return side;
 }
 
-/// The first plane to show: a result before the colour, as the command has sorted them.
+/// The first two files that begin with the same plane: of a frame, a result and its truth the latter two. Null where no two do.
+function alikeFiles() {
+  const leading = files.map((file) => (viewsOf(file)[0].planes[0] || {}).name);
+  const first = leading.findIndex((name, i) => name && leading.indexOf(name, i + 1) > i);
+  return first < 0 ? null : [first, leading.indexOf(leading[first], first + 1)];
+}
+
+/// The first planes to show: a result before the colour, as the command has sorted them, and beside it the same of another file.
 function firstSides() {
   settle(state.a);
+  const alike = alikeFiles();
+  if (alike) {
+    state.a = settle({file: alike[0]});
+    state.b = settle({file: alike[1], view: state.a.view, plane: state.a.plane});
+    state.mode = 'wipe';
+    return;
+  }
   if (files.length > 1) {
-    state.b = settle({file: 1, view: state.a.view, plane: state.a.plane});
-    if (state.b.plane === state.a.plane) state.mode = 'wipe';
+    state.b = settle({file: 1, view: state.a.view});
     return;
   }
   const views = viewsOf(files[0]), planes = planesOf(state.a);

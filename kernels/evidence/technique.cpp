@@ -156,6 +156,7 @@ Technique evidence_over_depth() {
   t.may_read = {"back_depth"};
   t.parameters = EvidenceParams::table() + EvidenceEdgeParams::table();
   t.passes = over_depth;
+  t.recommended = "you want ambient occlusion: nearest to the truth on most frames";
   t.default_for = {"ao_raw", "bent_normal", "cone", "specular_occlusion_raw", "lobe_weight"};
   t.effect = {.name = "ambient occlusion",
               .changes = "ao",

@@ -98,6 +98,7 @@ Technique gtao_over_depth() {
       row("gtao", "ambient occlusion from horizons in slices, cosine-weighted", "Jimenez, Wu, Pesce, Jarabo 2016");
   t.parameters = GtaoParams::table();
   t.passes = passes_of(gtao_passes);
+  t.recommended = "you want ambient occlusion in less time: as fast as HBAO+, and nearer to the truth";
   t.caution =
       "more steps may be farther from the truth: they find more occluders, and every occluder closes all behind it, so "
       "outdoors and among thin things high and ultra read too dark";
@@ -122,6 +123,7 @@ Technique indirect_over_depth() {
   t.extras.insert(t.extras.begin(), "ao_raw");
   t.parameters = IndirectParams::table();
   t.passes = passes_of(indirect_passes);
+  t.recommended = "surfaces light each other, and the frame has colour";
   // Only what rises over a surface sends light to it. Light from near surfaces is faint in most pictures.
   t.effect = {.name = "light of near surfaces",
               .changes = "indirect",

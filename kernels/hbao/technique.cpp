@@ -54,6 +54,7 @@ Technique over_depth() {
                {"ultra", {{"directions", "4"}, {"steps", "18"}}}};
   t.converged = {{"directions", "16"}, {"steps", "128"}};
   t.passes = passes_of(passes);
+  t.recommended = "you want ambient occlusion in the least time";
   t.samples = directions_times_steps;
   t.contribution = contribution_of(contribution);
   return t;

@@ -336,6 +336,7 @@ Technique plain() {
                {"high", {{"rays", "2"}, {"neighbours", "21"}}},
                {"ultra", {{"rays", "4"}, {"neighbours", "25"}}}};
   t.passes = passes_of(sssr_passes);
+  t.recommended = "surfaces reflect, and the frame has roughness and reflectance";
   t.assumes = assumption<SssrParams>;
   // No mask: rays are listed one by one, so a mask saves little where surfaces reflect at all.
   t.effect = {.name = "reflections",
@@ -356,6 +357,7 @@ Technique for_two_eyes() {
   t.reads.insert(t.reads.end(), {"back_depth", "instance"});
   t.default_for.clear();
   t.over_time.clear();
+  t.recommended.clear();
   t.views = 2;
   t.parameters = StereoSsrParams::table();
   // The same number of pixels in the other eye.
@@ -387,6 +389,7 @@ Technique over_frames() {
   t.writes = {"reflection", "hit", "frames", "reflection_raw"};
   t.default_for.clear();
   t.over_time.clear();
+  t.recommended.clear();
   t.parameters = TemporalSssrParams::table();
   t.passes = passes_of(temporal_passes);
   t.assumes = assumption<TemporalSssrParams>;

@@ -408,6 +408,15 @@ TEST_F(CameraByPositions, InfoPrintsThreeLinesForBlender) {
   SeenFrame seen;
   seen.change = [](Imf::Header& header) { header.insert("Frame", Imf::StringAttribute("0042")); };
   seen.write(path("shot \"a\".exr"), {"Z", "N"});
+  const std::string of_anybody = gloam({"info", path("shot \"a\".exr")}).out;
+  EXPECT_EQ(of_anybody.find("import bpy"), std::string::npos) << "the file of another program";
+  EXPECT_NE(of_anybody.find("The camera is not known: --fov DEG"), std::string::npos) << of_anybody;
+  seen.change = [](Imf::Header& header) {  // as Blender stamps a file of one layer
+    for (const auto& [name, text] : std::map<std::string, std::string>{
+             {"Frame", "0042"}, {"Scene", "Scene"}, {"File", "<untitled>"}, {"Date", "2026/11/21 00:23:10"}})
+      header.insert(name, Imf::StringAttribute(text));
+  };
+  seen.write(path("shot \"a\".exr"), {"Z", "N"});
   const std::string out = gloam({"info", path("shot \"a\".exr")}).out;
   const size_t start = out.find("import bpy, json");
   ASSERT_NE(start, std::string::npos) << out;
@@ -415,7 +424,9 @@ TEST_F(CameraByPositions, InfoPrintsThreeLinesForBlender) {
   EXPECT_NE(out.find("/shot \\\"a\\\".camera.json\", \"w\")"), std::string::npos) << out;
   EXPECT_EQ(std::count(out.begin() + long(start), out.end(), '\n'), 3) << out;
   seen.write_camera(path("camera.json"));
-  EXPECT_EQ(gloam({"info", path("shot \"a\".exr")}).out.find("import bpy"), std::string::npos);
+  const std::string known = gloam({"info", path("shot \"a\".exr")}).out;
+  EXPECT_EQ(known.find("import bpy"), std::string::npos);
+  EXPECT_EQ(known.find("The camera is not known"), std::string::npos);
 }
 
 class BlenderCamera : public CameraByPositions {

@@ -28,7 +28,7 @@ std::vector<std::string> passes_of(const Json& plan) {
 TEST_F(Cli, HelpAndVersion) {
   const Result help = gloam({"--help"});
   EXPECT_EQ(help.status, 0);
-  EXPECT_NE(help.out.find("gloam run hbao+ frame.exr"), std::string::npos) << help.out;
+  EXPECT_NE(help.out.find("Examples:\n  gloam ao frame.exr\n"), std::string::npos) << help.out;
   const Result version = gloam({"--version"});
   EXPECT_EQ(version.status, 0);
   EXPECT_EQ(gloam({"-V"}).out, version.out);
@@ -50,7 +50,7 @@ TEST_F(Cli, ListTechniquesHasOneLineForEachMethod) {
   const Json techniques = gloam({"list", "techniques", "--json", "-"}).json();
   const std::string list = gloam({"list", "techniques"}).out;
   for (const Json& technique : techniques) {
-    const std::string begin = "\n  " + technique["name"].get<std::string>() + " ";
+    const std::string name = technique["name"], begin = "\n  " + name + " ";
     const size_t at = list.find(begin);
     if (!technique["variant"].is_null()) {
       EXPECT_EQ(at, std::string::npos) << begin << " is in a column of its method's line";
@@ -154,14 +154,15 @@ TEST_F(Cli, ListTechniquesTellsAllThatAProgramNeeds) {
 TEST_F(Cli, WhatTechniquesMakeWhenAskedIsTold) {
   const Json techniques = gloam({"list", "techniques", "--json", "-"}).json();
   const std::string one = gloam({"list", "techniques", "gtao"}).out,
-                    page = gloam({"list", "techniques", "--markdown"}).out, help = gloam({"run", "--help"}).out;
+                    page = gloam({"list", "techniques", "--markdown"}).out, help = gloam({"run", "--help-all"}).out;
   int makers = 0;
   for (const Json& technique : techniques) {
     if (technique["extras"] != Json({"bent_normal", "cone"})) continue;
     ++makers;
     const std::string name = technique["name"], section = page.substr(page.find("\n## `" + name + "`\n"));
     EXPECT_NE(section.substr(0, section.find("\n## ", 1)).find("`cone` (cosine of"), std::string::npos) << name;
-    EXPECT_NE(help.substr(help.find("--with")).find(name), std::string::npos) << name;
+    const bool is_method = technique["variant"].is_null();
+    EXPECT_TRUE(!is_method || help.substr(help.find("--with")).find(name) != std::string::npos) << name;
   }
   EXPECT_GE(makers, 4);
   EXPECT_NE(one.find("  --with  cone: cosine of the half angle"), std::string::npos);
@@ -581,13 +582,14 @@ TEST_F(Cli, TheFrameThatTellsTheBackgroundMayStartElsewhereOrReachFarther) {
 
 /// A parameter of a flag's name is set by --set, and its help says so.
 TEST_F(Cli, NoParameterHidesAFlag) {
-  const std::string help = gloam({"run", "--help"}).out;
+  const std::string help = gloam({"run", "--help-all"}).out;
   std::set<std::string> hidden;
   for (const Json& technique : gloam({"list", "techniques", "--json", "-"}).json()) {
     const std::string own = gloam({"run", technique["name"].get<std::string>(), "--help"}).out;
     for (const Json& p : technique["parameters"]) {
       const std::string name = p["name"];
-      if (help.find("\n  --" + name + " ") == std::string::npos) continue;
+      // --radius stands among the flags that most need, and is the parameter itself.
+      if (name == "radius" || help.find("\n  --" + name + " ") == std::string::npos) continue;
       hidden.insert(name);
       EXPECT_NE(own.find("\n  --set " + name + " "), std::string::npos) << technique["name"] << ": " << name;
     }

@@ -30,7 +30,7 @@ class Completion : public Cli {
 };
 
 TEST_F(Completion, OffersCommandsTechniquesFlagsAndPresets) {
-  EXPECT_EQ(offered("gloam re"), "reference report");
+  EXPECT_EQ(offered("gloam rep"), "report");
   EXPECT_EQ(offered("gloam comp"), "compare") << "and not the command that writes this";
   EXPECT_EQ(offered("gloam run hb"), "hbao hbao+");
   EXPECT_EQ(offered("gloam run gtao --pre"), "--preset");
@@ -46,6 +46,22 @@ TEST_F(Completion, OffersParametersOfTheTechniqueThatIsNamed) {
   EXPECT_EQ(offered("gloam run hbao+ --falloff qua"), "quadratic");
   EXPECT_EQ(offered("gloam run hbao+ --fallo"), "--falloff");
   EXPECT_EQ(offered("gloam run bitmask --fallo"), "");
+  EXPECT_EQ(offered("gloam run ao x.exr --radi"), "--radius")
+      << "ao stands for a technique, whose parameters these are";
+  EXPECT_EQ(offered("gloam run ao x.exr --max-r"), "--max-reach");
+  EXPECT_EQ(offered("gloam plan ao x.exr --max-r"), "--max-reach");
+}
+
+TEST_F(Completion, KnowsTechniquesAsCommands) {
+  EXPECT_EQ(offered("gloam gt"), "gtao");
+  EXPECT_EQ(offered("gloam g"), "gaussian gtao");
+  EXPECT_EQ(offered("gloam ao x.exr --max-r"), "--max-reach");
+  EXPECT_EQ(offered("gloam hbao+ x.exr --falloff = qua"), "quadratic");
+  EXPECT_EQ(offered("gloam gtao x.exr --preset m"), "medium");
+  std::ofstream(path("frame.exr")) << "x";
+  EXPECT_EQ(offered("gloam gtao fram"), "frame.exr");
+  EXPECT_EQ(offered("gloam hel"), "help");
+  EXPECT_EQ(offered("gloam help comp"), "compare");
 }
 
 TEST_F(Completion, OffersFilesOfTheEndingThatIsTaken) {

@@ -128,7 +128,7 @@ TEST_F(Doctor, GroupsAreNoLargerThanADeviceTakes) {
 /// Wherever a device can be chosen, what doctor measured can be left aside.
 TEST_F(Doctor, EveryCommandThatComputesTakesNoTuning) {
   for (const char* command : {"run", "auto", "bench", "pick", "stress"}) {
-    const std::string help = gloam({command, "--help"}).out;
+    const std::string help = gloam({command, "--help-all"}).out;
     EXPECT_NE(help.find("--device"), std::string::npos) << command;
     EXPECT_NE(help.find("--no-tuning"), std::string::npos) << command;
   }

@@ -130,6 +130,9 @@ TEST_F(FirstMinute, TheCommandThatWasMeantIsNamed) {
   expect_has(refused({"run", frame, "gtao"}), {"gloam run gtao " + name});
   expect_has(refused({"plan", frame}), {"gloam plan ao " + name});
   expect_has(refused({"gtoa", frame}), {"did you mean 'gtao'", "each technique is one too"});
+  expect_has(refused({"help", "gtoa"}), {"no command 'gtoa' (did you mean 'gtao'?)"});
+  expect_has(refused({"help", "nonsense"}), {"no command 'nonsense'; there are run, auto,", "(gloam --help)"});
+  expect_has(refused({"comapre", "--help"}), {"did you mean 'compare'"});
   expect_has(refused({"comapre", frame}), {"did you mean 'compare'"});
   expect_has(refused({"--versoin"}), {"did you mean '--version'"});
   expect_has(refused({"ao"}), {"frame is required"});

@@ -348,6 +348,13 @@ TEST_F(Into, APlaneThatIsThereTwiceIsTold) {
   EXPECT_NE(named.out.find("half"), std::string::npos) << named.out;
 }
 
+/// gloam's own luminance of a result is not called unread; that of others is, also where gloam added a part.
+TEST_F(Into, InfoListsTheLuminanceOfOthers) {
+  write_stored(path("f.exr"), {{"", "", {"Z", "Y"}}});
+  ASSERT_EQ(into().status, 0);
+  EXPECT_EQ(gloam({"info", file("copy.exr"), "--json", "-"}).json()["unread"], nlohmann::json({"Y"}));
+}
+
 TEST_F(Into, InfoListsThePartThatIsNotRead) {
   write_stored(path("f.exr"), {{"", "", {"R", "G", "B", "Z", "AO"}}});
   ASSERT_EQ(into().status, 0);

@@ -1,5 +1,7 @@
 // A driver that ends the process: damaged compiled kernels, no linker, no memory. Only PoCL's kernels are in files that can be
 // damaged; the build with sanitizers has no handlers of its own for this.
+#include <pty.h>
+
 #include <random>
 
 #include "cli/gloam_process.h"
@@ -20,8 +22,28 @@ class KernelCache : public Cli {
     ASSERT_EQ(cold.status, 0) << cold.err;
     if (kept(".bc").empty()) GTEST_SKIP() << "this driver keeps no kernels in POCL_CACHE_DIR";
   }
+  /// What a run on a terminal says.
+  std::string said_on_terminal(const char* output, const fs::path& kernels) const {
+    int terminal = -1;
+    const std::string out = path(output).string();
+    const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+    if (child == 0) {
+      setenv("POCL_CACHE_DIR", kernels.c_str(), 1);
+      setenv("COLUMNS", "1000", 1);
+      execl(program, program, "run", "normals", loggia.c_str(), "-o", out.c_str(), nullptr);
+      _exit(127);
+    }
+    std::string said;
+    char part[4096];
+    for (ssize_t got; (got = read(terminal, part, sizeof part)) > 0;) said.append(part, size_t(got));
+    int status = 0;
+    waitpid(child, &status, 0);
+    close(terminal);
+    EXPECT_EQ(status, 0) << said;
+    return said;
+  }
   std::map<std::string, std::string> environment(std::map<std::string, std::string> more = {}) const {
-    more["POCL_CACHE_DIR"] = path("cache").string();
+    more.emplace("POCL_CACHE_DIR", path("cache").string());
     return more;
   }
   Result run(const char* output, const std::map<std::string, std::string>& more = {},
@@ -56,6 +78,18 @@ class KernelCache : public Cli {
     EXPECT_EQ(files(), (std::vector<std::string>{"cache", "cold.exr", "first.exr", "second.exr"})) << what;
   }
 };
+
+/// A person who waits is told once why; programs are not.
+TEST_F(KernelCache, AFirstRunOnATerminalSaysThatItCompiles) {
+  fs::create_directory(path("none"));
+  const std::string first = said_on_terminal("a.exr", path("none")), second = said_on_terminal("b.exr", path("none"));
+  EXPECT_NE(first.find("first run on '"), std::string::npos) << first;
+  EXPECT_NE(first.find("kernels are compiled, about a second for each"), std::string::npos) << first;
+  EXPECT_EQ(second.find("first run"), std::string::npos) << second;
+  fs::create_directory(path("other"));
+  const Result quiet = run("c.exr", {{"POCL_CACHE_DIR", path("other").string()}});
+  EXPECT_EQ(quiet.err.find("first run"), std::string::npos) << quiet.err;
+}
 
 TEST_F(KernelCache, DamagedKernelsAreCompiledAnew) {
   for (const fs::path& file : kept(".so")) fs::resize_file(file, 3000);

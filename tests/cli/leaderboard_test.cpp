@@ -240,6 +240,17 @@ TEST_F(Leaderboard, GivesTheCommandOfEachRow) {
   EXPECT_EQ(table["rows"].back()["measured_by"], "gloam score images");
 }
 
+TEST_F(Leaderboard, ReadsNoLeaderboard) {
+  write("a.json", measurements());
+  for (int time = 0; time < 3; ++time) {
+    const Result result = leaderboard({"--json", path("results/table.json")});
+    ASSERT_EQ(result.status, 0) << time << ": " << result.err;
+    EXPECT_EQ(Json::parse(slurp(path("results/table.json")))["files"].size(), 1u);
+  }
+  fs::remove(path("results/a.json"));
+  says("results: holds an earlier leaderboard alone");
+}
+
 TEST_F(Leaderboard, SaysWhatIsWrong) {
   says("results: holds no results, neither *.json nor */bench.json");
   EXPECT_NE(gloam({"leaderboard", path("nowhere")}).err.find("nowhere: is not a folder"), std::string::npos);

@@ -75,6 +75,17 @@ TEST_F(Cli, PickWithoutATruthSaysWhatErrorsAreTo) {
   EXPECT_NE(result.out.find("gloam run gtao "), std::string::npos) << result.out;
 }
 
+TEST_F(Cli, PickNamesAFrameOfAShotOnce) {
+  write_frame(path("shot.0001.exr"), small_frame());
+  write_frame(path("shot.0002.exr"), small_frame());
+  const Result result = gloam({"pick", path("shot.####.exr"), "--budget", "1s", "--techniques", "ssao"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.lines_of_error(), 1) << result.err;
+  const size_t first = result.err.find("frame 1:");
+  ASSERT_NE(first, std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("frame 1:", first + 1), std::string::npos) << result.err;
+}
+
 TEST_F(Cli, PickRefusesInOneLine) {
   const auto expect_refused = [&](const Arguments& arguments, const std::string& part) {
     const Result result = gloam(arguments);

@@ -320,6 +320,33 @@ TEST_F(ReportInBrowser, DrawsTheRoofline) {
   EXPECT_NE(result["remark"].get<std::string>().find("Not counted: hbao+ low."), std::string::npos) << result["remark"];
 }
 
+/// With more rows than fit, nothing is under the bar, and the page says that there is more.
+TEST_F(ReportInBrowser, LongTablesSayThatTheyScroll) {
+  Json document = measurements();
+  document["scenes"][0]["peaks"] = {{"copy_gb_per_s", 8}, {"gather_g_per_s", 1}, {"fma_gflops", 100}};
+  for (int i = 0; i < 40; ++i)
+    document["results"][1]["passes"].push_back(
+        {{"name", "hbao+/pass" + std::to_string(i)},
+         {"ms", {{"median", 0.1}}},
+         {"per_pixel", {{"operations", 1000}, {"loads", 50}, {"bytes_loaded", 200}, {"bytes_stored", 4}}},
+         {"bound", {{"by", "reads"}, {"share", 0.768}}}});
+  write(document);
+  ASSERT_EQ(report().status, 0);
+  const std::string script = R"js(
+    pick(keyOf(data.rows[1]));
+    await until(() => document.querySelectorAll('#roofline-table tbody tr').length > 30);
+    const box = document.querySelector('#roofline-table .scroll'), note = document.querySelector('#roofline-table .scrolls');
+    await until(() => note.textContent);
+    result.note = note.textContent;
+    result.hidden_columns = box.scrollWidth - box.clientWidth;
+  )js";
+  const Json wide = in_browser(script, 1280), narrow = in_browser(script, 500);
+  EXPECT_EQ(wide["note"], "The table scrolls: more rows below.");
+  EXPECT_EQ(wide["hidden_columns"], 0);
+  EXPECT_EQ(narrow["note"], "The table scrolls: more rows below, more columns to the right.");
+  EXPECT_GT(narrow["hidden_columns"], 0);
+}
+
 /// A shot of two frames, with one technique by itself and over time.
 Json shot_measurements() {
   Json rows = Json::array();
@@ -404,7 +431,7 @@ TEST_F(ReportInBrowser, ShowsWhatIsClicked) {
   EXPECT_NE(result["low"][1], result["medium"][1]);
   EXPECT_EQ(result["canvas"], Json({48, 32}));
   // 100 - 200 is beyond the colours: all blue; 220 - 200 is a little above: more red than blue.
-  EXPECT_EQ(result["low_difference"], Json({24, 90, 189, 255}));
+  EXPECT_EQ(result["low_difference"], Json({17, 70, 137, 255}));
   EXPECT_GT(result["medium_difference"][0], result["medium_difference"][2]);
   EXPECT_EQ(result["background"][3], 0);
   EXPECT_EQ(result["wipe"], "25%");

@@ -91,12 +91,12 @@ TEST_F(Variants, ThatDoNotExistAreRefusedWithThoseThatDo) {
             std::string::npos);
 }
 
-TEST_F(Variants, AreColumnsOfTheList) {
+TEST_F(Variants, StandInTheLinesOfTheirMethods) {
   const std::string list = gloam({"list", "techniques"}).out, one = gloam({"list", "techniques", "hbao+"}).out;
   const size_t at = list.find("\n  hbao+ ");
   ASSERT_NE(at, std::string::npos);
   const std::string line = list.substr(at + 1, list.find('\n', at + 1) - at - 1);
-  EXPECT_NE(line.find("stochastic peeled  both both+stochastic "), std::string::npos) << line;
+  EXPECT_NE(line.find("[--layers stochastic peeled; --eyes both both+stochastic]"), std::string::npos) << line;
   EXPECT_EQ(list.find("\n  sd-"), std::string::npos);
   EXPECT_NE(one.find("--layers stochastic --eyes both: stereo-sd-hbao+"), std::string::npos) << one;
   EXPECT_NE(gloam({"list", "techniques", "dp-gtao"}).out.find("variant of gtao: --layers peeled"), std::string::npos);

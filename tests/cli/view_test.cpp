@@ -543,6 +543,26 @@ TEST_F(ViewInBrowser, ChoosesOneComponentOrTheLength) {
 
 // --- Two files
 
+/// Of a frame, a result and the truth the latter two are compared, whatever else they hold.
+TEST_F(ViewInBrowser, OpensOnTheResultAgainstTheTruth) {
+  write_frame(path("frame.exr"), small_frame());
+  write_frame(path("result.exr"), small_frame(32, 24, {"ao"}));
+  write_result("truth.exr", 0.75f);
+  const std::string script = R"js(
+    result.a = [state.a.file, state.a.plane];
+    result.b = [state.b.file, state.b.plane];
+    result.mode = state.mode;
+  )js";
+  write_result("other.exr", 0.25f);
+  for (const char* test : {"result.exr", "other.exr"}) {
+    const Json result = page_of({"frame.exr", test, "truth.exr"}, script);
+    EXPECT_EQ(result["a"], Json({1, "ao"})) << test;
+    EXPECT_EQ(result["b"], Json({2, "ao"})) << test;
+    EXPECT_EQ(result["mode"], "wipe") << test;
+  }
+  EXPECT_EQ(page_of({"frame.exr", "result.exr"}, script)["a"][0], 0);
+}
+
 TEST_F(ViewInBrowser, WipesFlickersAndShowsSideBySide) {
   write_result("a.exr", 0.25f);
   write_result("b.exr", 0.75f);

@@ -141,9 +141,11 @@ void add_auto(CLI::App& app) {
   flags->frame.add_to(*command);
   add_text(*command, "-o,--output", flags->out, "OUT.exr", "EXR file to write, with the planes of all effects");
   add_text(*command, "--explain", flags->explain, "OUT.png", "picture of what is called for where, and why");
-  add_choice(*command, "--mask", flags->mask, mask_words,
-             "whether an effect is computed only where the frame calls for it; measured (the default): both ways are "
-             "timed, 3 rounds in turn, and the mask is used where it saves 5 % or more; of a shot: never");
+  add_choice(
+      *command, "--mask", flags->mask, mask_words,
+      "whether an effect is computed only on the tiles that call for it (the mask), or everywhere; measured (the "
+      "default): both ways are timed, 3 rounds in turn, and the mask is used where it saves 5 % or more; always and "
+      "never time nothing; of a shot: never");
   command->add_flag("--measure", flags->measure,
                     "also compute everything everywhere, and tell what that takes; 3 timed runs at least");
   CLI::Option* budget = add_parsed(*command, "--budget", flags->goal.ms, parse_budget,

@@ -261,9 +261,12 @@ void add_subject_flags(CLI::App& command, BenchCommand& flags) {
 
 /// How much is measured, and how often.
 void add_extent_flags(CLI::App& command, BenchCommand& flags) {
-  add_choice(command, "--ladder", flags.ladder,
-             {{"none", LadderFor::none}, {"presets", LadderFor::presets}, {"all", LadderFor::all}},
-             "where errors come from, step by step; all: of variants too; default presets");
+  add_choice(
+      command, "--ladder", flags.ladder,
+      {{"none", LadderFor::none}, {"presets", LadderFor::presets}, {"all", LadderFor::all}},
+      "measure also the steps from a setting to the truth (the error ladder), which tell how much of the error is "
+      "of few samples, of noise, of hidden surfaces, of the filter; of each preset (presets, the default), of "
+      "variants too (all), or not (none)");
   add_number(command, "--rounds", flags.rounds, allowed_rounds,
              "each runs everything once, in turn; default 9 with --all, else 6 to 30: until the ratio of each setting "
              "is known to 2 %",
@@ -321,8 +324,8 @@ void add_bench(CLI::App& app) {
   add_chunk_flags(*command, flags->chunks, flags->print, "the scenes, and named techniques,", "Several machines");
   flags->frame_flags.add_to(*command);
   add_rows_flags(*command, *flags);
-  const std::vector<std::string> shared = {"--output", "--size",      "--rounds", "--rays",
-                                           "--device", "--no-tuning", "--help",   "--paper"};
+  const std::vector<std::string> shared = {"--output",    "--size", "--rounds",   "--rays", "--device",
+                                           "--no-tuning", "--help", "--help-all", "--paper"};
   for (CLI::Option* option : command->get_options()) {
     if (!contains(shared, option->get_name())) option->excludes(paper);
   }

@@ -132,10 +132,11 @@ void add_rows_flags(CLI::App& app, BenchCommand& flags) {
              {{"time", Regression::time}, {"error", Regression::error}, {"both", Regression::both}},
              "with --baseline: what fails; default both")
       ->needs(baseline);
-  add_number(app, "--processes", flags.processes, {1, 100},
-             "measure times in so many processes, one after another, since two processes of one build differ; "
-             "default 1, with --rows and --baseline as many as then",
-             "N");
+  add_number(
+      app, "--processes", flags.processes, {1, 100},
+      "start so many processes, one after another, and measure the times in each: the same build is a few per cent "
+      "faster in one process than in the next; default 1, with --rows and --baseline as many as then",
+      "N");
   for (const char* chosen :
        {"--effects", "--techniques", "--presets", "--scenes", "--variants", "--sweep", "--ladder", "--no-growth",
         "--no-checks", "--no-images", "--sequence", "--chunks", "--time", "--items"}) {

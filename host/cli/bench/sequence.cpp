@@ -131,6 +131,17 @@ void check_memory(const SequenceBenchFlags& flags, const MeasuredFrame& first, s
                  "measure fewer frames (--frames)");
 }
 
+/// Names the frame in an error of what is done on it.
+Subject naming_frame(int number, const std::function<Subject()>& made) {
+  try {
+    return made();
+  } catch (const UsageError&) {
+    throw;
+  } catch (const Error& error) {
+    throw Error("frame {}: {}", number, error.what());
+  }
+}
+
 void add_own(MeasuredSequence& sequence, const SequenceBenchFlags& flags, const SequenceFiles& shot,
              const MeasureOptions& options, SceneOptions making) {
   sequence.name = flags.sequence;
@@ -142,15 +153,10 @@ void add_own(MeasuredSequence& sequence, const SequenceBenchFlags& flags, const 
     reading.camera = shot.camera_of(frame);
     making.in_sequence = InSequence{.camera_before = {}, .scene_before = nullptr, .seed = frame.number};
     show_status(fmt::format("frame {}", frame.number), double(sequence.frames.size()) / double(frames.size()));
-    try {
-      add_frame(sequence, frame.number,
-                own_subject(own_frame(paths.front(), reading, {paths.begin() + 1, paths.end()}), "ao",
-                            options.techniques, making, note));
-    } catch (const UsageError&) {
-      throw;
-    } catch (const Error& error) {
-      throw Error("frame {}: {}", frame.number, error.what());
-    }
+    add_frame(sequence, frame.number, naming_frame(frame.number, [&] {
+                return own_subject(own_frame(paths.front(), reading, {paths.begin() + 1, paths.end()}), "ao",
+                                   options.techniques, making, note);
+              }));
     if (sequence.frames.size() > 1) continue;
     check_memory(flags, sequence.frames.front(), frames.size());
     making.radius = sequence.radius.value;  // the same in all frames

@@ -212,8 +212,11 @@ void add_capture(CLI::App& app) {
                     "with --peel: also colour and normal of each layer, for light from hidden surfaces (dp-indirect)");
   add_number(*command, "--stochastic", flags->stochastic, {1, 16},
              "samples of a stochastic depth map of all surfaces, 1 to 16", "S");
-  add_number(*command, "--alpha", flags->alpha, {0, 1},
-             "share of the samples that a surface is offered to; default 0.2", "A");
+  add_number(
+      *command, "--alpha", flags->alpha, {0, 1},
+      "of --stochastic: the share of a pixel's samples that a surface may take, so that others show what is behind "
+      "it; smaller shows more of what is far behind; default 0.2",
+      "A");
   add_number(*command, "--stochastic-seed", flags->stochastic_seed, allowed_seeds, "of its random choices; default 0",
              "N");
   add_number(*command, "--outlines", flags->outlines, {1e-15, 1e15},

@@ -102,16 +102,26 @@ _gloam_files() {
 )bash";
 
 constexpr const char* main_function = R"bash(_gloam() {
-  local cur=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} command=${COMP_WORDS[1]}
+  local words=("${COMP_WORDS[@]}") at=$COMP_CWORD
+  # A technique for a command is `run` with it.
+  if ((at > 1)) && [[ " $_gloam_techniques " == *" ${words[1]} "* ]]; then
+    words=("${words[0]}" run "${words[@]:1}")
+    ((++at))
+  fi
+  local cur=${words[at]} previous=${words[at-1]} command=${words[1]}
   COMPREPLY=()
   # bash takes --flag=value for three words.
   if [[ $cur == '=' ]]; then
     cur=
-  elif [[ $previous == '=' ]] && ((COMP_CWORD > 2)); then
-    previous=${COMP_WORDS[COMP_CWORD-2]}
+  elif [[ $previous == '=' ]] && ((at > 2)); then
+    previous=${words[at-2]}
   fi
-  if ((COMP_CWORD == 1)); then
-    _gloam_words "$_gloam_commands --help --version"
+  if ((at == 1)); then
+    _gloam_words "$_gloam_commands $_gloam_techniques help --help --help-all --version"
+    return
+  fi
+  if [[ $command == help ]]; then
+    _gloam_words "$_gloam_commands $_gloam_techniques"
     return
   fi
   if [[ $previous == -* && " $(_gloam_switches "$command") " != *" $previous "* ]]; then
@@ -119,11 +129,11 @@ constexpr const char* main_function = R"bash(_gloam() {
     return
   fi
   local i arguments=0 parameters=
-  for ((i = 2; i < COMP_CWORD; ++i)); do
-    local word=${COMP_WORDS[i]}
+  for ((i = 2; i < at; ++i)); do
+    local word=${words[i]}
     if [[ $word == -* ]]; then
       [[ " $(_gloam_switches "$command") " == *" $word "* ]] || ((++i))
-      [[ ${COMP_WORDS[i]} == '=' ]] && ((++i))
+      [[ ${words[i]} == '=' ]] && ((++i))
     else
       parameters+=" $(_gloam_parameters "$command:$word")"
       ((++arguments))
@@ -140,13 +150,15 @@ complete -F _gloam gloam
 
 }  // namespace
 
-std::string bash_completion(const std::vector<CompletedCommand>& commands) {
+std::string bash_completion(const CompletedWords& first) {
+  const std::vector<CompletedCommand>& commands = first.commands;
   std::vector<std::string> names;
   for (const CompletedCommand& command : commands) names.push_back(command.name);
   return fmt::format(
              "# bash completion for gloam, written by `gloam completion bash`.\n"
-             "_gloam_commands='{}'\n\n",
-             joined(names)) +
+             "_gloam_commands='{}'\n"
+             "_gloam_techniques='{}'\n\n",
+             joined(names), joined(first.techniques)) +
          helpers + flag_cases(commands) + "_gloam_value() {\n  case $1 in\n" + value_cases(commands) + "  esac\n}\n\n" +
          "_gloam_argument() {\n  case $1 in\n" + argument_cases(commands) + "  esac\n}\n\n" + main_function;
 }

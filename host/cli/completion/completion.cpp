@@ -5,9 +5,12 @@
 
 #include "base/lists.h"
 #include "cli/flags/options.h"
+#include "cli/help/commands.h"
+#include "cli/process/words.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "gloam/scene/scene.h"
+#include "technique/default_technique.h"
 
 namespace gloam::cli {
 namespace {
@@ -50,6 +53,14 @@ Words planes_and_techniques() {
   return names;
 }
 
+/// Techniques, and the planes that stand for their default technique: "ao".
+Words technique_words() {
+  Words names = technique_names();
+  for (const PlaneKind& kind : plane_kinds())
+    if (names_technique(kind.name)) add_new(names, kind.name);
+  return names;
+}
+
 Words with(Words words, const std::string& word) {
   words.push_back(word);
   return words;
@@ -58,7 +69,7 @@ Words with(Words words, const std::string& word) {
 /// Words of the registry for a value of this name in any command; empty for other names.
 Words words_for(const std::string& command, const std::string& name) {
   if (command == "stress" && name == "technique") return with(technique_names(), "all");
-  if (name == "technique") return with(technique_names(), "ao");
+  if (name == "technique") return technique_words();
   if (name == "outputs" && command == "plan") return planes_and_techniques();
   if (name == "--techniques" || name == "--elsewhere") return technique_names();
   if (name == "--filter" || name == "--falloff") return with(technique_names(), "none");
@@ -157,9 +168,8 @@ CompletedCommand completed(const CLI::App& command, const std::set<std::string>&
     if (!flags.empty()) result.parameters.emplace_back(name, std::move(flags));
   };
   const bool of_scenes = contains(Words{"capture", "reference"}, command.get_name());
-  for (const Technique& technique : registry()) {
-    if (!of_scenes) add(technique.name, technique.parameters);
-  }
+  for (const std::string& word : of_scenes ? Words() : technique_words())
+    add(word, find_technique(technique_for(word)).parameters);
   for (const SceneRecipe& recipe : builtin_scenes()) {
     if (of_scenes) add(recipe.name, recipe.parameters);
   }
@@ -169,7 +179,7 @@ CompletedCommand completed(const CLI::App& command, const std::set<std::string>&
 }  // namespace
 
 void add_completion(CLI::App& app, ParameterFlags parameter_flags) {
-  using Writer = std::string (*)(const std::vector<CompletedCommand>&);
+  using Writer = std::string (*)(const CompletedWords&);
   auto writer = std::make_shared<Writer>();
   CLI::App* command = app.add_subcommand("completion", "what a shell completes, as a script for that shell");
   command->group("");  // not shown
@@ -180,10 +190,10 @@ void add_completion(CLI::App& app, ParameterFlags parameter_flags) {
       "  source <(gloam completion bash)\n"
       "  gloam completion zsh > ~/.zfunc/_gloam");
   command->callback([&app, writer, parameter_flags] {
-    std::vector<CompletedCommand> commands;
-    for (const CLI::App* sub : app.get_subcommands([](const CLI::App* sub) { return !sub->get_group().empty(); }))
-      commands.push_back(completed(*sub, parameter_flags(sub)));
-    fmt::print("{}", (*writer)(commands));
+    CompletedWords first{{}, technique_words()};
+    for (const std::string& name : command_names())
+      first.commands.push_back(completed(*app.get_subcommand(name), parameter_flags(app.get_subcommand(name))));
+    fmt::print("{}", (*writer)(first));
   });
 }
 

@@ -36,8 +36,14 @@ struct CompletedCommand {
   std::vector<std::pair<std::string, std::vector<CompletedFlag>>> parameters;
 };
 
-std::string bash_completion(const std::vector<CompletedCommand>& commands);
-std::string zsh_completion(const std::vector<CompletedCommand>& commands);
+/// What the first word may be.
+struct CompletedWords {
+  std::vector<CompletedCommand> commands;
+  std::vector<std::string> techniques;  ///< each stands for `run` with it
+};
+
+std::string bash_completion(const CompletedWords& first);
+std::string zsh_completion(const CompletedWords& first);
 
 /// Names of parameters that a command takes as flags.
 using ParameterFlags = std::set<std::string> (*)(const CLI::App*);

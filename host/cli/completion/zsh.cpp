@@ -66,9 +66,9 @@ std::string parameter_cases(const CompletedCommand& command) {
 
 }  // namespace
 
-std::string zsh_completion(const std::vector<CompletedCommand>& commands) {
+std::string zsh_completion(const CompletedWords& first) {
   std::string names, cases, parameters;
-  for (const CompletedCommand& command : commands) {
+  for (const CompletedCommand& command : first.commands) {
     names += fmt::format("    '{}:{}'\n", command.name, escaped(command.help));
     cases += fmt::format("    {})\n      specs=(\n{}      ) ;;\n", command.name, specifications(command));
     parameters += parameter_cases(command);
@@ -78,10 +78,17 @@ std::string zsh_completion(const std::vector<CompletedCommand>& commands) {
       "# zsh completion for gloam, written by `gloam completion zsh`.\n"
       "_gloam() {{\n"
       "  local -a commands=(\n{}  )\n"
+      "  local -a techniques=({})\n"
       "  if (( CURRENT == 2 )); then\n"
       "    _describe -t commands command commands\n"
+      "    _describe -t techniques technique techniques\n"
       "    _arguments '--help[what there is]' '--version[which version this is]'\n"
       "    return\n"
+      "  fi\n"
+      "  # A technique for a command is `run` with it.\n"
+      "  if (( ${{techniques[(Ie)$words[2]]}} )); then\n"
+      "    words=(\"$words[1]\" run \"${{(@)words[2,-1]}}\")\n"
+      "    (( CURRENT++ ))\n"
       "  fi\n"
       "  local command=$words[2] word\n"
       "  local -a specs\n"
@@ -94,7 +101,7 @@ std::string zsh_completion(const std::vector<CompletedCommand>& commands) {
       "  _arguments -s $specs\n"
       "}}\n"
       "_gloam \"$@\"\n",
-      names, cases, parameters);
+      names, fmt::join(first.techniques, " "), cases, parameters);
 }
 
 }  // namespace gloam::cli

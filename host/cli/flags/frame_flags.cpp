@@ -152,6 +152,13 @@ std::vector<const CLI::Option*> reading_flags(const CLI::App& app) {
       [](const CLI::Option* option) { return option->get_group() == reading_heading && option->count() > 0; });
 }
 
+std::string reading_text(const CLI::App& app) {
+  std::string text;
+  for (const CLI::Option* option : reading_flags(app))
+    for (const std::string& value : option->results()) text += " " + option->get_name() + " " + quoted_for_shell(value);
+  return text;
+}
+
 void check_no_reading_flags(const CLI::App& app, const std::vector<std::string>& allowed) {
   for (const CLI::Option* option : reading_flags(app)) {
     if (!contains(allowed, option->get_name()))

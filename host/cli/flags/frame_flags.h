@@ -36,6 +36,8 @@ struct FrameFlags {
 
 /// The flags given to a command that say how a frame is read.
 std::vector<const CLI::Option*> reading_flags(const CLI::App& app);
+/// The same as text, with a space before each, for a command line that is told.
+std::string reading_text(const CLI::App& app);
 /// Throws UsageError for such a flag but for those of `allowed`: frames of a set say themselves how they are read.
 void check_no_reading_flags(const CLI::App& app, const std::vector<std::string>& allowed = {});
 /// Throws UsageError for --frames, which is for a shot, with one frame.

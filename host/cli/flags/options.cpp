@@ -12,6 +12,7 @@
 #include "base/lists.h"
 #include "base/statistics.h"
 #include "camera/camera_search.h"
+#include "cli/flags/wrap.h"
 #include "gloam/error.h"
 #include "sequence/plan_files.h"
 #include "technique/default_technique.h"
@@ -191,6 +192,18 @@ void print_written(const std::vector<std::string>& files) {
   for (const std::string& file : files) fmt::print("wrote {}\n", printable(file));
 }
 
+namespace {
+
+/// A row with text at its end, which has lines of its own where the columns before it leave no room.
+std::string ended_by(std::string row, const std::string& text) {
+  constexpr size_t indent = 6;
+  if (has_room_from(row.size())) return row + wrapped(text, row.size(), row.size());
+  row.resize(row.find_last_not_of(' ') + 1);
+  return row + "\n" + std::string(indent, ' ') + wrapped(text, indent, indent);
+}
+
+}  // namespace
+
 void print_table(const std::vector<std::vector<std::string>>& rows, size_t first_number) {
   std::vector<size_t> widths;
   for (const auto& row : rows) {
@@ -202,9 +215,11 @@ void print_table(const std::vector<std::vector<std::string>>& rows, size_t first
     for (size_t i = 0; i < row.size(); ++i) {
       const bool last = i + 1 == row.size();
       const std::string cell = printable(row[i]);
-      line += i >= first_number ? fmt::format("{:>{}}", cell, widths[i])
-              : last            ? cell
-                                : fmt::format("{:<{}}", cell, widths[i]);
+      if (last && i < first_number) {
+        line = ended_by(std::move(line), cell);
+        break;
+      }
+      line += i >= first_number ? fmt::format("{:>{}}", cell, widths[i]) : fmt::format("{:<{}}", cell, widths[i]);
       if (!last) line += "  ";
     }
     fmt::print("{}\n", line);

@@ -73,7 +73,8 @@ void check_picture_name(const std::string& path, const std::string& flag);
 /// Tells the ledger of files of the pictures of all views, once these are known: `check_paths` has the name on the command line alone.
 void check_pictures(const NamedPath& picture, const std::vector<std::string>& views);
 
-/// Rows of text in aligned columns; the first row is the heading. Columns from `first_number` on are aligned right.
+/// Rows of text in aligned columns; the first row is the heading. Columns from `first_number` on are aligned right. A last column of
+/// text goes on in further lines where it passes the terminal's width.
 void print_table(const std::vector<std::vector<std::string>>& rows, size_t first_number);
 
 /// Prints the names of files that were written, one a line.

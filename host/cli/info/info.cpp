@@ -7,7 +7,9 @@
 #include "cli/flags/options.h"
 #include "cli/flags/radius.h"
 #include "cli/flags/shot_flags.h"
+#include "cli/flags/wrap.h"
 #include "cli/info/shot.h"
+#include "cli/info/verdict.h"
 #include "cli/info/views.h"
 #include "exr/camera_facts.h"
 #include "exr/plane_facts.h"
@@ -15,6 +17,7 @@
 #include "gloam/frame_pattern.h"
 #include "gloam/planes.h"
 #include "gloam/visualise.h"
+#include "technique/default_technique.h"
 
 namespace gloam::cli {
 namespace {
@@ -94,6 +97,12 @@ Abilities abilities_of(const FrameFile& file, const Frame& frame) {
   return abilities;
 }
 
+/// In words; empty for a technique that can run.
+std::string lacked_by(const Abilities& abilities, const std::string& technique) {
+  const auto found = abilities.words.find(technique);
+  return found == abilities.words.end() ? "" : found->second;
+}
+
 std::string types_of(const PlaneSource& source) {
   std::string types;
   for (const ChannelSource& channel : source.channels) {
@@ -121,8 +130,9 @@ void print_lacks(const Abilities& abilities, bool by_technique) {
     for (const auto& [technique, words] : abilities.words) fmt::print("lacks  {}: {}\n", technique, printable(words));
     return;
   }
-  if (!abilities.planes.empty()) fmt::print("lacks  planes: {}\n", most_wanted(abilities.planes));
-  if (!abilities.views.empty()) fmt::print("lacks  views: {}\n", printable(most_wanted(abilities.views)));
+  const auto line = [](const std::string& text) { fmt::print("lacks  {}\n", wrapped(printable(text), 7, 9)); };
+  if (!abilities.planes.empty()) line("planes: " + most_wanted(abilities.planes));
+  if (!abilities.views.empty()) line("views: " + most_wanted(abilities.views));
   const size_t count = abilities.words.size();
   if (count > 0) fmt::print("       --lacks says which of them each of {} techniques needs\n", count);
 }
@@ -148,7 +158,7 @@ void print_info(const FrameFile& file, const std::vector<PlaneFacts>& facts, con
   print_table(rows, 4);
   const std::vector<std::string> unread = unread_channels(file);
   if (facts.empty()) fmt::print("no plane that gloam knows\n");
-  if (!unread.empty()) fmt::print("not read: {}\n", printable(first_names(unread)));
+  if (!unread.empty()) fmt::print("{}\n", wrapped("not read: " + printable(first_names(unread)), 0, 2));
   fmt::print("\n");
   for (const auto& [view, camera] : document["cameras"].items())
     fmt::print("camera {}{}\n", view.empty() ? "" : "of " + printable(view) + ": ", printable(camera_line(camera)));
@@ -157,9 +167,8 @@ void print_info(const FrameFile& file, const std::vector<PlaneFacts>& facts, con
                100 * document["background_share"].get<double>());
   }
   if (!document["normal_space"].is_null()) fmt::print("normal {} space\n", document["normal_space"].get<std::string>());
-  for (const std::string& note : assumed) fmt::print("assumed: {}\n", printable(note));
-  const std::vector<std::string>& runs = abilities.runs;
-  fmt::print("\nruns   {}\n", runs.empty() ? "nothing" : fmt::format("{}", fmt::join(runs, ", ")));
+  for (const std::string& note : assumed) fmt::print("{}\n", wrapped("assumed: " + printable(note), 0, 2));
+  fmt::print("\n{}", runs_in_words(abilities.runs));
   print_lacks(abilities, lacks_by_technique);
 }
 
@@ -197,6 +206,7 @@ struct InfoFlags {
   FrameChoice choice;
   FrameFlags frame_flags;
   JsonFlag json;
+  const CLI::App* app = nullptr;
 
   /// Pictures of one plane need that plane alone.
   bool is_pictures_only() const { return views.any() && picture.empty() && json.path.empty(); }
@@ -210,10 +220,17 @@ void check_outputs(const InfoFlags& flags) {
   check_paths({{"the frame", flags.frame}, {"--camera", flags.frame_flags.camera}}, outputs);
 }
 
-void print_lines_for_blender(const std::vector<std::string>& lines) {
+/// What the writer of the file can do about a camera that is not known. `lines`: for Blender's console.
+void print_way_to_camera(const FrameFile& file, const std::vector<std::string>& lines) {
   if (lines.empty()) return;
-  fmt::print(
-      "\nIf Blender rendered the frame, these lines in its Python console write the camera beside the frame:\n\n");
+  if (!is_of_blender(file)) {
+    fmt::print("\n{}\n", wrapped("The camera is not known: --fov DEG gives its width, --camera FILE.json all of it; "
+                                 "docs/gbuffer.md says where gloam looks for it in files of each renderer.",
+                                 0, 0));
+    return;
+  }
+  fmt::print("\n{}\n\n",
+             wrapped("Blender writes no camera; these lines in its Python console write it beside the frame:", 0, 0));
   for (const std::string& line : lines) fmt::print("{}\n", printable(line));
 }
 
@@ -270,9 +287,15 @@ void describe(const InfoFlags& flags, std::vector<std::string> pictures) {
   if (!picture.empty()) pictures.push_back(picture);
   flags.json.write(document, pictures);
   if (flags.json.only_json()) return;
+  const bool has_surfaces = pixels_at_median_depth(frame).has_value();
+  const Json& from = document["camera_from"];
+  const FoundOnFrame found{abilities.runs, lacked_by(abilities, technique_for("ao")), reading_text(*flags.app),
+                           from.is_null() ? "" : from.get<std::string>(),
+                           has_surfaces ? std::optional(suggested.value) : std::nullopt};
+  fmt::print("{}\n\n", wrapped(verdict_on(file, found), 0, 0));
   print_info(file, facts, document, frame.assumed, abilities, flags.lacks);
-  if (pixels_at_median_depth(frame)) radius.print();
-  print_lines_for_blender(for_blender);
+  if (has_surfaces) radius.print();
+  print_way_to_camera(file, for_blender);
   print_written(pictures);
 }
 
@@ -308,6 +331,7 @@ void add_info(CLI::App& app) {
   add_frames(*command, flags->choice);
   flags->frame_flags.add_to(*command);
   flags->json.add_to(*command);
+  flags->app = command;
   command->footer(
       "Examples:\n  gloam info frame.exr\n  gloam info frame.exr --picture planes.png\n"
       "  gloam info display.exr --sheet views.png\n"

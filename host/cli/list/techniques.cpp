@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "cli/flags/wrap.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
 #include "gloam/radius.h"
@@ -150,37 +151,73 @@ std::string variants_in_words(const Technique& method, bool both_eyes, const cha
 
 }  // namespace
 
+namespace {
+
+/// " [--layers stochastic peeled, --eyes both; the default of ao]"
+std::string variants_and_default(const Technique& t) {
+  std::vector<std::string> facts;
+  for (const bool both_eyes : {false, true}) {
+    const std::string words =
+        variants_in_words(t, both_eyes, " ", [](const Technique&, const std::string& word) { return word; });
+    if (!words.empty()) facts.push_back((both_eyes ? "--eyes " : "--layers ") + words);
+  }
+  if (contains(t.default_for, "ao_raw")) facts.push_back("the default: gloam run ao");
+  return facts.empty() ? "" : fmt::format(" [{}]", fmt::join(facts, "; "));
+}
+
+/// The few that most people need, with what they are for.
+void print_recommended() {
+  fmt::print("recommended, where\n");
+  std::vector<std::vector<std::string>> rows;
+  for (const Technique* t : methods())
+    if (!t->recommended.empty())
+      rows.push_back(
+          {"* " + t->name, t->recommended + (contains(t->default_for, "ao_raw") ? "; gloam ao takes it" : "")});
+  print_table(rows, 2);
+}
+
+}  // namespace
+
+const std::string& heading_of(const Technique& technique) { return group_of(technique).heading; }
+
+std::vector<std::string> technique_headings() {
+  std::vector<std::string> headings;
+  for (const Group& group : groups()) headings.push_back(group.heading);
+  return headings;
+}
+
 void print_techniques() {
+  print_recommended();
   size_t width = 0;
   for (const Technique* t : methods()) width = std::max(width, t->name.size());
-  fmt::print("{:<{}}  {:<17}  {}\n", "", width + 2, "--layers", "--eyes");
   for (const Group& group : groups()) {
-    fmt::print("{}{}\n", &group == &groups().front() ? "" : "\n", group.heading);
+    fmt::print("\n{}\n", group.heading);
     for (const Technique* t : methods()) {
       if (&group_of(*t) != &group) continue;
-      const auto columns = [&](bool both_eyes) {
-        return variants_in_words(*t, both_eyes, " ", [](const Technique&, const std::string& word) { return word; });
-      };
-      const bool is_default = contains(t->default_for, "ao_raw");
-      fmt::print("  {:<{}}  {:<17}  {:<20}  {}{}\n", t->name, width, columns(false), columns(true), t->summary,
-                 is_default ? " (the default: gloam run ao)" : "");
+      fmt::print("  {:<{}}  {}\n", t->name, width,
+                 wrapped(t->summary + variants_and_default(*t), width + 4, width + 4));
     }
   }
-  fmt::print(
-      "\ngloam list techniques NAME shows parameters, presets, variants, and what a technique reads and writes.\n");
+  fmt::print("\n{}\n", wrapped("gloam list techniques NAME shows parameters, presets, variants, and what a technique "
+                               "reads and writes.",
+                               0, 0));
 }
 
 void print_technique(const Technique& t, const std::set<std::string>& settable) {
-  fmt::print("{}: {}\n", t.name, t.summary);
-  if (!t.paper.empty()) fmt::print("  paper   {}\n", t.paper);
-  fmt::print("  reads   {}\n  writes  {}\n", all_reads(t), fmt::join(t.writes, ", "));
-  if (t.views > 1) fmt::print("  views   a frame of two\n");
-  if (!t.variant.of.empty()) fmt::print("  variant of {}: {}\n", t.variant.of, options_of(t.variant));
-  for (const Technique* v : variants_of(t)) fmt::print("  variant {}: {}\n", options_of(v->variant), v->name);
-  if (!t.then.empty()) fmt::print("  then    {} (--filter chooses another, or none)\n", t.then);
-  for (const std::string& plane : t.extras) fmt::print("  --with  {}: {}\n", plane, plane_kind(plane).help);
-  if (contains(t.default_for, "ao_raw")) fmt::print("  default for ao: gloam run ao, plan ao and auto take it\n");
-  if (!t.caution.empty()) fmt::print("  caution {}\n", t.caution);
+  fmt::print("{}\n", wrapped(t.name + ": " + t.summary, 0, 2));
+  const auto fact = [](const char* name, const std::string& text) {
+    if (!text.empty()) fmt::print("  {:<7} {}\n", name, wrapped(text, 10, 10));
+  };
+  fact("paper", t.paper);
+  fact("reads", all_reads(t));
+  fact("writes", fmt::format("{}", fmt::join(t.writes, ", ")));
+  if (t.views > 1) fact("views", "a frame of two");
+  if (!t.variant.of.empty()) fact("variant", "of " + t.variant.of + ": " + options_of(t.variant));
+  for (const Technique* v : variants_of(t)) fact("variant", options_of(v->variant) + ": " + v->name);
+  if (!t.then.empty()) fact("then", t.then + " (--filter chooses another, or none)");
+  for (const std::string& plane : t.extras) fact("--with", plane + ": " + plane_kind(plane).help);
+  if (contains(t.default_for, "ao_raw")) fact("default", "for ao: gloam run ao, plan ao and auto take it");
+  fact("caution", t.caution);
   if (!t.parameters.empty()) fmt::print("\nParameters of {}:\n", t.name);
   std::vector<std::vector<std::string>> rows;
   for (const Parameter& p : t.parameters)
@@ -189,7 +226,7 @@ void print_technique(const Technique& t, const std::set<std::string>& settable) 
   print_table(rows, 4);
   if (!t.presets.empty()) fmt::print("\nPresets of {}:\n", t.name);
   for (const Preset& preset : t.presets)
-    fmt::print("  --preset {:<6}  {}\n", preset.name, preset_in_words(preset, " "));
+    fmt::print("  --preset {:<6}  {}\n", preset.name, wrapped(preset_in_words(preset, " "), 19, 19));
 }
 
 namespace {

@@ -16,6 +16,10 @@ std::string default_in_words(const Parameter& parameter);
 
 /// Everything about techniques, for programs.
 Json techniques_document(const std::vector<const Technique*>& techniques);
+/// What a technique is listed under: "ambient occlusion", "masks, for --only".
+const std::string& heading_of(const Technique& technique);
+/// All headings, in the order of the list.
+std::vector<std::string> technique_headings();
 /// Prints names and summaries, grouped by the planes that techniques make.
 void print_techniques();
 /// Prints parameters, defaults, presets, and the planes that the technique reads and writes. `settable`: parameters that the

@@ -55,15 +55,6 @@ PickOptions options_of(const PickCommand& flags) {
       .budget = flags.budget, .error = flags.error, .by = flags.by, .rounds = flags.rounds, .progress = show_status};
 }
 
-/// The given flags for reading the frame, as text.
-std::string reading_text(const CLI::App& app) {
-  std::string text;
-  for (const CLI::Option* option : reading_flags(app)) {
-    for (const std::string& value : option->results()) text += " " + option->get_name() + " " + quoted_for_shell(value);
-  }
-  return text;
-}
-
 std::string run_line(const PickCommand& flags, const Variation& v) {
   const bool is_shot = FramePattern::is_pattern(flags.frame);
   std::string line = fmt::format("gloam run {} {} -o {}", v.technique->name, quoted_for_shell(flags.frame),

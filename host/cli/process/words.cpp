@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "base/command_line.h"
+#include "cli/help/commands.h"
 #include "cli/list/techniques.h"
 #include "gloam/error.h"
 #include "gloam/frame_pattern.h"
@@ -10,13 +11,6 @@
 
 namespace gloam::cli {
 namespace {
-
-std::vector<std::string> commands_of(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App* each) { return !each->get_group().empty(); }))
-    names.push_back(command->get_name());
-  return names;
-}
 
 /// `what`: the technique that was given in the frame's place, or "ao".
 std::string order_in_words(const std::string& command, const std::string& frame, const std::string& what) {
@@ -41,14 +35,14 @@ bool names_frame(const std::string& word) {
 std::vector<std::string> completed_words(std::vector<std::string> words) {
   if (words.empty()) return words;
   if (words.front() == "help") {
-    words.erase(words.begin());
+    while (!words.empty() && words.front() == "help") words.erase(words.begin());
     words.push_back("--help");
   }
   if (names_technique(words.front())) words.insert(words.begin(), "run");
   return words;
 }
 
-std::string meant_by_first_word(const CLI::App& app, const std::string& word) {
+std::string meant_by_first_word(const std::string& word) {
   if (names_frame(word))
     return fmt::format(
         "'{}' is a file, and a command comes first: gloam ao {} computes ambient occlusion, gloam info {} tells what "
@@ -56,7 +50,7 @@ std::string meant_by_first_word(const CLI::App& app, const std::string& word) {
         word, quoted_for_shell(word), quoted_for_shell(word));
   if (word.starts_with("-"))
     return fmt::format("no flag '{}'{} (gloam --help)", word, suggestion(word, {"--help", "--version"}));
-  std::vector<std::string> names = commands_of(app);
+  std::vector<std::string> names = command_names();
   const std::string commands = enumerate(names);
   names.push_back("ao");
   for (const std::string& name : technique_names()) names.push_back(name);

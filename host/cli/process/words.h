@@ -17,7 +17,7 @@ bool names_technique(const std::string& word);
 bool names_frame(const std::string& word);
 
 /// Where the first word is no command: what was probably meant, as a sentence.
-std::string meant_by_first_word(const CLI::App& app, const std::string& word);
+std::string meant_by_first_word(const std::string& word);
 
 /// Where the command lacks its frame, since the first of its two words is one: what was probably meant; empty elsewhere.
 std::string meant_without_technique(const CLI::App& command);

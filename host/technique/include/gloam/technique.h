@@ -189,6 +189,8 @@ struct Technique {
   ParameterList parameters;
   std::vector<Preset> presets;
   std::string caution;  ///< what to know before choosing a preset; may be empty
+  /// For the few that a list shows first: what one wants who takes it, as in "surfaces reflect"; empty for all others.
+  std::string recommended;
   /// Settings with so many samples that the image no longer changes, to measure what more samples could gain; not meant to be fast.
   /// Empty if there are none.
   Settings converged;
