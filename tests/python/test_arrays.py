@@ -187,6 +187,7 @@ def test_what_is_no_plane_is_told_with_the_call_that_helps(change, sentence, sce
     (dict(normal=numpy.full((40, 60, 3), 128, numpy.uint8)), "plane 'normal' has the dtype uint8, as a picture of normals has it; give array / 255 and normals_are='unsigned'"),
     (dict(roughness=numpy.full((40, 60), 200, numpy.uint8)), "plane 'roughness' has the dtype uint8 and values up to 200, where 1 is the most; give array / 255"),
     (dict(albedo=numpy.full((40, 60, 3), 9000, numpy.int32)), "values up to 9000, where 1 is the most; give array / 65535"),
+    (dict(color=numpy.full((40, 60, 4), 255, numpy.uint8)), "alpha, the 4th component of plane 'color', has the dtype uint8 and values up to 255"),
     (dict(camera=numpy.eye(4)), "camera is of type ndarray; a gloam.Camera is allowed: gloam.Camera.from_projection(matrix, 'opengl', width, height)"),
     (dict(camera=numpy.eye(3)), "a gloam.Camera is allowed: gloam.Camera.from_intrinsics(K)"),
     (dict(frame=numpy.zeros((40, 60))), "a gloam.Frame, a path, or arrays by keyword are allowed, depth=array"),

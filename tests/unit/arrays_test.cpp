@@ -97,9 +97,12 @@ TEST(Cameras, OfAProjectionDrawPointsWhereItDoes) {
   // glFrustum(-0.1, 0.3, -0.05, 0.15, 0.1, 10), as columns.
   const glm::dmat4 projection(0.5, 0, 0, 0, 0, 1, 0, 0, 0.5, 0.5, -10.1 / 9.9, -1, 0, 0, -2 / 9.9, 0);
   const Camera camera = camera_from_projection(projection, ClipSpace::opengl, 400, 200).camera;
-  EXPECT_DOUBLE_EQ(camera.fx, 100), EXPECT_DOUBLE_EQ(camera.fy, 100);
-  EXPECT_DOUBLE_EQ(camera.cx, 100), EXPECT_DOUBLE_EQ(camera.cy, 150);
-  EXPECT_NEAR(*camera.near, 0.1, 1e-12), EXPECT_NEAR(*camera.far, 10, 1e-10);
+  EXPECT_DOUBLE_EQ(camera.fx, 100);
+  EXPECT_DOUBLE_EQ(camera.fy, 100);
+  EXPECT_DOUBLE_EQ(camera.cx, 100);
+  EXPECT_DOUBLE_EQ(camera.cy, 150);
+  EXPECT_NEAR(*camera.near, 0.1, 1e-12);
+  EXPECT_NEAR(*camera.far, 10, 1e-10);
   const std::string refusal =
       message_of([&] { camera_from_projection(glm::transpose(projection), ClipSpace::opengl, 400, 200); });
   EXPECT_NE(refusal.find("projection is transposed"), std::string::npos) << refusal;

@@ -161,6 +161,7 @@ def planes_of_views(of_views, names=None):
             if rest is None:
                 continue
             if name == "color" and "alpha" not in planes:
+                _refuse_integers("alpha, the 4th component of plane 'color',", rest)
                 made["alpha"] = _as_float(rest)
             else:
                 notes.append(f"{name}: its {made[name].shape[2] + 1}th component is left out; {name} has {made[name].shape[2]}")
