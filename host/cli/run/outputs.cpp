@@ -4,6 +4,7 @@
 
 #include "base/file_identity.h"
 #include "base/file_ledger.h"
+#include "exr/writers.h"
 #include "gloam/error.h"
 
 namespace gloam::cli {
@@ -52,6 +53,8 @@ std::string name_beside(const FrameArguments& frame, const std::string& techniqu
   std::error_code unknown;
   if (frame.has_pattern())
     throw UsageError("run: the results of a shot have no name; give one, such as -o '{}.####.exr'", technique);
+  if (std::filesystem::is_directory(path, unknown))
+    throw Error("{}: is a folder; {}", path.string(), advice_on_folder(path));
   if (std::filesystem::exists(path, unknown) && !std::filesystem::is_regular_file(path, unknown))
     throw UsageError("run: the result has no name; give one, such as -o {}.exr", technique);
   const std::filesystem::path out = path.parent_path() / fmt::format("{}_{}.exr", path.stem().string(), technique);
