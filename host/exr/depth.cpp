@@ -90,7 +90,9 @@ ReadOptions with_declared_depth(const ExrFile& file, const PlaneSource& depth, c
   ReadOptions options = file.options;
   if (take_shown_depth(depth, relation, options, assumed)) return options;
   if (options.depth != DepthConvention::automatic) return options;
-  if (depth.said == DeclaredConvention::planar || file.headers.has("gloamOrigin")) options.depth = DepthConvention::z;
+  const bool is_of_own_file = file.options.plane_files.contains("depth");  // of which the frame's header says nothing
+  if (depth.said == DeclaredConvention::planar || (file.headers.has("gloamOrigin") && !is_of_own_file))
+    options.depth = DepthConvention::z;
   if (depth.said == DeclaredConvention::ray_distance) {
     options.depth = DepthConvention::ray;
     add_new(

@@ -124,6 +124,12 @@ FrameFile::FrameFile(FrameFile&&) noexcept = default;
 // --- From the headers
 
 const fs::path& FrameFile::path() const { return impl_->file.path; }
+std::vector<fs::path> FrameFile::parts_in_files() const {
+  std::vector<fs::path> files = {impl_->file.path};
+  for (const auto& [plane, file] : impl_->file.options.plane_files) files.push_back(file);
+  if (!impl_->file.options.calibration_file.empty()) files.push_back(impl_->file.options.calibration_file);
+  return files;
+}
 Window FrameFile::display() const { return impl_->file.display; }
 Window FrameFile::window() const { return impl_->file.window; }
 

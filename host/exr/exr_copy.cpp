@@ -214,6 +214,7 @@ std::vector<std::string> write_copy(const std::filesystem::path& path, const std
 
 void write_frame_like(const std::filesystem::path& path, const std::filesystem::path& original, int part,
                       const Frame& frame, const WriteOptions& options) {
+  if (is_image_file(original)) return write_frame(path, frame, options);  // which has no header to be like
   check(options);
   const Original from = open_original(original);
   const Imf::Header& like = from.file->header(part);

@@ -58,6 +58,7 @@ void find_planes(ExrFile& file) {
   });
   add_depth_of_positions(file);
   // Mitsuba's depth is the length of the ray, whatever name the user gave the channel.
+  if (file.options.plane_files.contains("depth")) return;
   if (file.headers.text("generatedBy").find("Mitsuba") == std::string::npos) return;
   for (PlaneSource& plane : file.names.planes)
     if (plane.plane == "depth" && plane.said != DeclaredConvention::made_of_positions)

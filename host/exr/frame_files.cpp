@@ -99,6 +99,9 @@ FrameFiles::FrameFiles(const std::vector<std::string>& paths, const ReadOptions&
   if (!options.views.empty())
     throw UsageError("{}: each of two files is one view already; leave it out, or give one file",
                      option("view", fmt::format("{}", fmt::join(options.views, ","))));
+  if (!options.plane_files.empty())
+    throw UsageError("{}: a file of one plane is for one eye, and two are given; leave it out, or give one file",
+                     option("plane-file", options.plane_files.begin()->first));
   std::error_code unknown;
   if (fs::equivalent(paths[0], paths[1], unknown))
     throw UsageError("{}: is given twice ({}), and two files are two eyes; give the file of each", paths[0], paths[1]);

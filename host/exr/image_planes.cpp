@@ -75,6 +75,10 @@ Channel packed_depth(const ImageValues& image, const ImageWords& file, const Rea
   return depth;
 }
 
+std::string note_on_bytes() {
+  return fmt::format("depth: {} has no effect: depth is no picture of three bytes", option("depth-bytes"));
+}
+
 /// What whole numbers of a depth range from and to.
 std::pair<float, float> extent(const Channel& channel) {
   float least = infinity, most = -infinity;
@@ -88,7 +92,7 @@ std::pair<float, float> extent(const Channel& channel) {
 /// The largest whole number in a share of the pixels is what lies beyond the range: a sky.
 void mark_largest(Channel& depth, double largest, const ImageWords& file, const ReadOptions& options,
                   std::vector<std::string>& notes) {
-  if (options.background || options.depth == DepthConvention::inverse) return;
+  if (options.background || options.depth == DepthConvention::inverse || options.depth_scale.value_or(1) < 0) return;
   long long count = 0;
   const int width = depth.layout().width;
   for (int y = 0; y < depth.layout().height; ++y)
@@ -115,6 +119,7 @@ Channel depth_of(ImageValues image, const ImageWords& file, const ReadOptions& o
     return packed;
   }
   Channel depth = std::move(channels.front());
+  if (options.depth_bytes != DepthBytes::automatic) notes.push_back(note_on_bytes());
   if (image.largest == 0) return depth;
   if (is_share_of_range(options.depth)) {
     divide(depth, image.largest);

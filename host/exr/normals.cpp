@@ -22,6 +22,7 @@ NormalSpace named_space(const ExrFile& file, const PlaneSource& normal, std::str
 
 /// What the file states: all of the convention by gloam's own attribute, the space by a name.
 StatedNormals stated_by_file(const ExrFile& file, const PlaneSource& normal) {
+  if (file.options.plane_files.contains("normal")) return {};  // of which the frame's header says nothing
   const std::string written = file.headers.text_for_part(normal.channels.front().part, "gloamNormalSpace");
   if (written == "view" || written == "world")
     return {{written == "view" ? NormalSpace::view : NormalSpace::world, NormalRange::signed_values, plain_axes},

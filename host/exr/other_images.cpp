@@ -6,6 +6,7 @@
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -143,6 +144,9 @@ void add_exr(const fs::path& path, const ReadOptions& options, Imf::Header& head
       throw Error("{}: has {} parts, and planes of other files are added to a file of one part alone", path.string(),
                   file.parts());
     header = file.header(0);
+    if (Imf::hasMultiView(header) && Imf::multiView(header).size() > 1)
+      throw Error("{}: has the views {}, and planes of other files are added to a file of one view alone",
+                  path.string(), enumerate(Imf::multiView(header)));
     const Imath::Box2i box = header.dataWindow();
     check_plausible(path, header, stream.size());
     Imf::FrameBuffer buffer;
@@ -162,8 +166,22 @@ void add_exr(const fs::path& path, const ReadOptions& options, Imf::Header& head
   });
 }
 
+/// What the name of the plane's channels states of them, unless the options state something.
+void take_declared(const std::string& plane, const FrameFile& file, ReadOptions& options) {
+  for (const PlaneSource& source : file.planes()) {
+    if (source.plane != plane) continue;
+    if (plane == "depth" && source.said == DeclaredConvention::ray_distance &&
+        options.depth == DepthConvention::automatic)
+      options.depth = DepthConvention::ray;
+    if (plane != "normal" || options.normals.space != NormalSpace::automatic) continue;
+    if (source.said == DeclaredConvention::world_space) options.normals.space = NormalSpace::world;
+    if (source.said == DeclaredConvention::view_space) options.normals.space = NormalSpace::view;
+  }
+}
+
 /// The plane of an EXR that holds it under any name, or nothing else: red, green and blue, or the only channel.
-ImageValues plane_of_exr(const std::string& plane, const fs::path& path, long long most_pixels) {
+ImageValues plane_of_exr(const std::string& plane, const fs::path& path, long long most_pixels,
+                         ReadOptions& frame_options) {
   ReadOptions options;
   options.only_looks = options.unconverted = true;
   options.most_pixels = most_pixels;
@@ -176,7 +194,9 @@ ImageValues plane_of_exr(const std::string& plane, const fs::path& path, long lo
       throw Error("{}: has no plane '{}'; it has {}", path.string(), plane, enumerate(all));
     options.channels[plane] = wanted == 3 ? "R,G,B" : all.size() == 1 ? all.front() : "R";
   }
-  Frame frame = FrameFile(path, options).read({plane});
+  FrameFile file(path, options);
+  take_declared(plane, file, frame_options);
+  Frame frame = file.read({plane});
   ImageValues image;
   image.type = "float32";
   if (!frame.views.front().planes.count(plane)) throw Error("{}: its plane '{}' cannot be read", path.string(), plane);
@@ -196,10 +216,10 @@ ImageValues only_image(const std::string& plane, const fs::path& file, const Rea
               enumerate(names), plane, option("plane", plane + "=NAME"));
 }
 
-void add_plane_file(const std::string& plane, const fs::path& file, const ReadOptions& options, Composed& composed) {
+void add_plane_file(const std::string& plane, const fs::path& file, ReadOptions& options, Composed& composed) {
   ImageValues image = is_image_file(file) ? only_image(plane, file, options)
                       : is_exr(file)
-                          ? plane_of_exr(plane, file, options.most_pixels)
+                          ? plane_of_exr(plane, file, options.most_pixels, options)
                           : throw Error("{}: is no image that is read; EXR, {} are", file.string(), image_formats());
   add_channels(channels_of_plane(plane, std::move(image), words_for(file), options, composed.notes), file.string(),
                composed);
@@ -278,6 +298,32 @@ int file_in_memory(Imf::Header header, const Composed& composed, const fs::path&
 
 }  // namespace
 
+namespace {
+
+bool is_same(const fs::path& a, const fs::path& b) { return a.lexically_normal() == b.lexically_normal(); }
+
+/// The header of a frame whose planes all come from files: that of the depth, if it is an EXR of one part, with its camera.
+Imf::Header header_of_images(const fs::path& path, const ReadOptions& options, const Composed& composed) {
+  Imf::Header header(composed.width, composed.height);
+  if (is_image_file(path)) return header;
+  ExrInput stream(path);
+  guarded(path, [&] {
+    check_headers(path, stream, options.most_pixels);
+    const Imf::MultiPartInputFile file(stream);
+    const Imath::Box2i data = header.dataWindow();
+    if (file.parts() == 1) header = file.header(0);
+    header.dataWindow() = data;
+    const Imath::Box2i display = header.displayWindow();
+    if (display.max - display.min != data.max - data.min)
+      header.displayWindow() = data;
+    else
+      header.dataWindow() = display;
+  });
+  return header;
+}
+
+}  // namespace
+
 std::string plane_in_file_name(const fs::path& file) {
   const std::vector<std::string> words = words_in(file.stem().string());
   for (auto word = words.rbegin(); word != words.rend(); ++word)
@@ -288,25 +334,34 @@ std::string plane_in_file_name(const fs::path& file) {
 std::unique_ptr<ExrInput> open_input(const fs::path& path, ReadOptions& options, std::vector<std::string>& notes) {
   if (std::error_code unknown; fs::is_directory(path, unknown))
     throw Error("{}: is a folder; {}", path.string(), advice_on_folder(path));
+  for (auto& [plane, file] : options.plane_files) {
+    check_plane_name(plane, "plane-file");
+    file = with_number_of(path, file);
+    if (options.channels.count(plane))
+      throw UsageError("{}: the plane has a file of its own, {}; give one of them",
+                       channels_option(plane, options.channels.at(plane)), file.string());
+  }
   const bool is_image = is_image_file(path);
-  if (is_image && !options.plane_files.count("depth")) take_writer(path, options, notes);
+  const auto depth_file = options.plane_files.find("depth");
+  if (is_image && (depth_file == options.plane_files.end() || is_same(depth_file->second, path)))
+    take_writer(path, options, notes);
   if (!is_image && options.plane_files.empty()) return std::make_unique<ExrInput>(path);
   const auto own_depth = options.plane_files.find("depth");
   if (own_depth != options.plane_files.end() || is_image)
     take_name_of_depth(own_depth != options.plane_files.end() ? own_depth->second : path, options, notes);
   Composed composed{{}, 0, 0, {}, notes};
   Imf::Header header(1, 1);
-  const auto is_frame = [&](const auto& entry) { return entry.second == path; };
+  const auto is_frame = [&](const auto& entry) { return is_same(entry.second, path); };
   const bool has_own_plane = std::any_of(options.plane_files.begin(), options.plane_files.end(), is_frame);
   const bool is_exr_frame = !is_image && !has_own_plane;
   if (is_exr_frame)
     add_exr(path, options, header, composed);
   else if (!has_own_plane)
     add_image_alone(path, options, composed);
-  for (const auto& [plane, file] : options.plane_files) check_plane_name(plane, "plane-file");
-  for (const auto& [plane, file] : options.plane_files)
-    add_plane_file(plane, with_number_of(path, file), options, composed);
-  if (!is_exr_frame) header = Imf::Header(composed.width, composed.height);
+  for (const char* const first : {"color", ""})  // whose alpha gives way to alpha in a file of its own
+    for (const auto& [plane, file] : options.plane_files)
+      if ((plane == "color") == (*first != 0)) add_plane_file(plane, file, options, composed);
+  if (!is_exr_frame) header = header_of_images(path, options, composed);
   return guarded(path, [&] { return std::make_unique<ExrInput>(path, file_in_memory(header, composed, path)); });
 }
 

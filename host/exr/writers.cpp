@@ -9,6 +9,7 @@
 
 #include "base/file_ledger.h"
 #include "base/json_object.h"
+#include "camera/camera_search.h"
 #include "exr/read_words.h"
 #include "exr/writers_data.h"
 #include "gloam/error.h"
@@ -126,7 +127,12 @@ double number_after(const std::string& text, const std::string& key, const fs::p
   return number;
 }
 
-Calibration read_calibration(const fs::path& file) {
+/// The camera of Middlebury's disparities: disp1.pfm is of the right image.
+const char* camera_of_disparities(const fs::path& depth) {
+  return depth.stem().string().ends_with('1') ? "cam1" : "cam0";
+}
+
+Calibration read_calibration(const fs::path& file, const char* which) {
   std::ifstream stream(file);
   if (!stream) throw Error("{}: cannot be read, and has the camera of the disparities beside it", file.string());
   opens_file(file);
@@ -135,12 +141,12 @@ Calibration read_calibration(const fs::path& file) {
   stream.read(text.data(), std::streamsize(longest));
   text = "\n" + text.substr(0, size_t(stream.gcount()));
   Calibration found;
-  const size_t matrix = text.find("\ncam0=[");
+  const size_t matrix = text.find(fmt::format("\n{}=[", which));
   double zero = 0;
   char semicolon = 0;
   std::istringstream rows(matrix == std::string::npos ? "" : text.substr(matrix + 7));
   if (!(rows >> found.focal >> zero >> found.x >> semicolon >> zero >> zero >> found.y) || !(found.focal > 0))
-    throw Error("{}: has no camera 'cam0=[f 0 cx; 0 f cy; 0 0 1]'", file.string());
+    throw Error("{}: has no camera '{}=[f 0 cx; 0 f cy; 0 0 1]'", file.string(), which);
   found.offset = number_after(text, "doffs", file);
   found.baseline = number_after(text, "baseline", file);
   found.width = number_after(text, "width", file);
@@ -151,12 +157,13 @@ Calibration read_calibration(const fs::path& file) {
 }
 
 /// 1/z = (d + doffs) / (f baseline). Its pixels have their centres at whole numbers.
-void take_calibration(const fs::path& file, ReadOptions& options) {
-  const Calibration camera = read_calibration(file);
+void take_calibration(const fs::path& file, const char* which, bool has_camera, ReadOptions& options) {
+  const Calibration camera = read_calibration(file, which);
+  options.calibration_file = file;
   const double scale = 1 / (camera.focal * camera.baseline);
   if (!options.depth_scale) options.depth_scale = scale;
   if (!options.depth_offset) options.depth_offset = camera.offset * scale;
-  if (!options.camera_file.empty() || options.fov_degrees) return;
+  if (has_camera) return;
   const nlohmann::json matrix = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
   options.camera_file = file;
   options.camera_text = nlohmann::json({{"width", camera.width},
@@ -183,13 +190,14 @@ void take_writer(const fs::path& depth, ReadOptions& options, std::vector<std::s
     options.depth_scale = writer->scale;
     said.push_back(option("depth-scale", fmt::format("{:g}", *writer->scale)));
   }
-  if (!options.fov_degrees && options.camera_file.empty() && writer->fov) {
+  const bool has_camera = options.fov_degrees || !options.camera_file.empty() || find_camera_file(depth);
+  if (!has_camera && writer->fov) {
     options.fov_degrees = writer->fov;
     said.push_back(option("fov", fmt::format("{:g}", *writer->fov)));
   }
   const fs::path calibration = depth.parent_path() / writer->calibration;
   if (!writer->calibration.empty() && fs::exists(calibration)) {
-    take_calibration(calibration, options);
+    take_calibration(calibration, camera_of_disparities(depth), has_camera, options);
     said.push_back(writer->calibration);
   }
   std::vector<std::string> planes;
@@ -198,8 +206,8 @@ void take_writer(const fs::path& depth, ReadOptions& options, std::vector<std::s
     if (!file || options.channels.count(plane) || !options.plane_files.emplace(plane, *file).second) continue;
     planes.push_back(fmt::format("{} from {}", plane, file->filename().string()));
   }
-  if (planes.empty() && said.empty()) return;
   options.plane_files.emplace("depth", depth);
+  if (planes.empty() && said.empty()) return;
   const std::string read = planes.empty() ? "" : enumerate(planes) + (said.empty() ? "" : ", ");
   notes.push_back(fmt::format("{}: named as by {}: {}{}", depth.filename().string(), writer->name, read,
                               said.empty() ? "" : fmt::format("{} taken", enumerate(said))));

@@ -23,11 +23,6 @@ std::string next_word(const std::string& bytes, size_t& at) {
   return end - begin > longest ? "" : bytes.substr(begin, end - begin);
 }
 
-void check_pixels(long long width, long long height, const std::string& name, long long most_pixels) {
-  if (width > 0 && height > 0 && width <= most_pixels / height) return;
-  throw Error("{}: has {}x{} pixels; 1 to {} are read", name, width, height, most_pixels);
-}
-
 }  // namespace
 
 ImageValues image_of_pfm(const std::string& bytes, const std::string& name, long long most_pixels) {
@@ -37,7 +32,8 @@ ImageValues image_of_pfm(const std::string& bytes, const std::string& name, long
   const double scale = std::atof(next_word(bytes, at).c_str());
   if ((kind != "PF" && kind != "Pf") || scale == 0 || !std::isfinite(scale))
     throw Error("{}: cannot be read as PFM: its header is damaged", name);
-  check_pixels(width, height, name, most_pixels);
+  check_image_size((unsigned long long)std::max(width, 0ll), (unsigned long long)std::max(height, 0ll), name,
+                   most_pixels);
   const size_t components = kind == "PF" ? 3 : 1, begin = at + 1, row_bytes = size_t(width) * components * 4;
   if (begin > bytes.size() || (bytes.size() - begin) / row_bytes < size_t(height))
     throw Error("{}: cannot be read as PFM: it ends too early", name);
@@ -64,6 +60,9 @@ namespace {
   throw Error("{}: cannot be read as Radiance HDR: {}", name, why);
 }
 
+/// Whether rows of this width may be run-length encoded.
+bool has_runs(size_t width) { return width >= 8 && width < 32768; }
+
 /// One row of pixels of red, green, blue and exponent, component by component; returns the place after it.
 size_t decode_row(const std::string& bytes, size_t at, size_t width, std::vector<unsigned char>& row,
                   const std::string& name) {
@@ -71,7 +70,7 @@ size_t decode_row(const std::string& bytes, size_t at, size_t width, std::vector
     if (i >= bytes.size()) refuse_picture(name, "it ends too early");
     return (unsigned char)bytes[i];
   };
-  const bool is_encoded = width >= 8 && width < 32768 && byte(at) == 2 && byte(at + 1) == 2 && byte(at + 2) < 128;
+  const bool is_encoded = has_runs(width) && byte(at) == 2 && byte(at + 1) == 2 && byte(at + 2) < 128;
   if (!is_encoded) {
     for (size_t x = 0; x < width; ++x)
       for (size_t c = 0; c < 4; ++c) row[c * width + x] = byte(at++);
@@ -102,12 +101,15 @@ ImageValues image_of_hdr(const std::string& bytes, const std::string& name, long
   const long long height = std::atoll(next_word(bytes, at).c_str());
   const std::string right = next_word(bytes, at);
   const long long width = std::atoll(next_word(bytes, at).c_str());
+  if (bytes.substr(0, blank).find("xyze") != std::string::npos)
+    refuse_picture(name, "its colours are XYZ, not red, green and blue");
   if (down != "-Y" || right != "+X") refuse_picture(name, "its rows do not run from the top left");
-  check_pixels(width, height, name, most_pixels);
+  check_image_size((unsigned long long)std::max(width, 0ll), (unsigned long long)std::max(height, 0ll), name,
+                   most_pixels);
   ++at;
-  // A run of 127 pixels takes two bytes.
-  if ((unsigned long long)width * (unsigned long long)height / 64 > bytes.size())
-    refuse_picture(name, "it ends too early");
+  // A run of 127 pixels takes two bytes; rows without runs four a pixel.
+  const unsigned long long pixels = (unsigned long long)width * (unsigned long long)height;
+  if ((has_runs(size_t(width)) ? pixels / 64 : 4 * pixels) > bytes.size()) refuse_picture(name, "it ends too early");
   ImageValues image;
   image.type = "shared exponent";
   for (int c = 0; c < 3; ++c) image.channels.emplace_back(Layout(int(width), int(height)), 0.0f);

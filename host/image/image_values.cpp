@@ -75,6 +75,26 @@ const Format* format_of(const fs::path& file) {
 
 }  // namespace
 
+void check_image_size(unsigned long long width, unsigned long long height, const std::string& name,
+                      long long most_pixels) {
+  constexpr unsigned long long longest = 1ull << 30;
+  const bool is_sane = width > 0 && height > 0 && width < longest && height < longest;
+  const auto most = (unsigned long long)most_pixels;
+  // Rows are padded: an image of one column takes the memory of sixteen.
+  if (is_sane && width <= most / height && (width + 15) / 16 * 16 <= 4 * most / height) return;
+  throw Error("{}: has {}x{} pixels; 1 to {} are read, with rows padded to multiples of 16", name, width, height,
+              most_pixels);
+}
+
+void check_all_sizes(const std::vector<ImageValues>& images, const std::string& name, long long most_pixels) {
+  constexpr size_t most_components = 16;
+  size_t all = 0;
+  for (const ImageValues& image : images) all += image.channels.size() * image.layout().count();
+  if (all > most_components * (size_t(most_pixels) + 4096))
+    throw Error("{}: its arrays hold more than {} components of {} pixels; keep those of one frame", name,
+                most_components, most_pixels);
+}
+
 std::string image_formats() {
   std::vector<std::string> names;
   for (const Format& format : formats()) names.emplace_back(format.name);

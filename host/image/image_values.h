@@ -18,6 +18,13 @@ struct ImageValues {
   const Layout& layout() const { return channels.front().layout(); }
 };
 
+/// Throws Error, beginning with `name`, for an image without pixels, or of more than `most_pixels`, with the padding of its rows.
+void check_image_size(unsigned long long width, unsigned long long height, const std::string& name,
+                      long long most_pixels);
+
+/// Throws Error, beginning with `name`, if the images of a file take more together than a few of `most_pixels`.
+void check_all_sizes(const std::vector<ImageValues>& images, const std::string& name, long long most_pixels);
+
 /// The formats in words: "PNG, TIFF, ...".
 std::string image_formats();
 

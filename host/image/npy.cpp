@@ -159,6 +159,7 @@ std::vector<ImageValues> images_of_npz(const std::string& bytes, const std::stri
   std::vector<ImageValues> images;
   for (const ArchiveEntry& entry : directory_of(bytes, name)) {
     if (!entry.name.ends_with(ending)) continue;
+    check_all_sizes(images, name, most_pixels);
     const std::string array_name = entry.name.substr(0, entry.name.size() - ending.size());
     const std::string full = fmt::format("{}, array '{}'", name, printable(array_name));
     const std::string whole = unpacked(bytes, entry, size_t(most_pixels) * 32 + longest_header, full);

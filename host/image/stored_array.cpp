@@ -114,11 +114,7 @@ ImageValues image_of(const StoredArray& array, const std::string& name, long lon
   if (!find_shape(array.shape, array.is_column_major, shape))
     throw Error("{}: is an array of shape ({}); an image is (height, width), or has up to {} components as well", name,
                 fmt::join(array.shape, ", "), most_components);
-  size_t pixels = 0;
-  constexpr size_t longest = size_t(1) << 30;
-  if (!count_of({shape.size[0], shape.size[1]}, (unsigned long long)most_pixels, pixels) || shape.size[0] > longest ||
-      shape.size[1] > longest)
-    throw Error("{}: has {}x{} pixels; {} are read at most", name, shape.size[1], shape.size[0], most_pixels);
+  check_image_size(shape.size[1], shape.size[0], name, most_pixels);
   ImageValues image;
   image.type = type_name(array.kind, array.bytes);
   if (array.kind == 'u' && array.bytes <= 2) image.largest = array.bytes == 1 ? 255 : 65535;

@@ -137,10 +137,17 @@ TiffImage image_in(TIFF* tiff, const std::string& name, long long most_pixels) {
   if (bits % 8 != 0 || !is_known_type(image.kind, image.bytes) || image.components < 1 || image.components > 4)
     throw Error("{}: has {} components of {} bits; 1 to 4 are read, of 8, 16, 32 or 64 bits", name, image.components,
                 bits);
-  size_t pixels = 0;
-  if (image.width == 0 || image.height == 0 ||
-      !count_of({image.width, image.height}, (unsigned long long)most_pixels, pixels))
-    throw Error("{}: has {}x{} pixels; 1 to {} are read", name, image.width, image.height, most_pixels);
+  const uint16_t colours = field<uint16_t>(tiff, TIFFTAG_PHOTOMETRIC),
+                 turn = field<uint16_t>(tiff, TIFFTAG_ORIENTATION);
+  if (colours != PHOTOMETRIC_MINISBLACK && colours != PHOTOMETRIC_RGB)
+    throw Error(
+        "{}: its photometric interpretation is {}; 1 (black is 0) and 2 (RGB) are read, so save it as one of them",
+        name, colours);
+  if (turn != ORIENTATION_TOPLEFT)
+    throw Error("{}: its orientation is {}; 1 (from the top left) is read, so save it upright", name, turn);
+  if (format != SAMPLEFORMAT_UINT && format != SAMPLEFORMAT_INT && format != SAMPLEFORMAT_IEEEFP)
+    throw Error("{}: its sample format is {}; 1 (whole), 2 (signed) and 3 (floating point) are read", name, format);
+  check_image_size(image.width, image.height, name, most_pixels);
   return image;
 }
 

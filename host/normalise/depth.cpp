@@ -104,9 +104,32 @@ void apply_scale(Channel& depth, const StatedDepth& stated) {
   });
 }
 
+/// As above, where the result decides what is background; what is stored does so where it is not finite, 1e10 and more, or as stated.
+/// A share of zeros is background too: that is how a grey tells that there is nothing.
+void shift(Channel& depth, const StatedDepth& stated, std::vector<std::string>& assumed) {
+  const Background background = background_of(stated.background, {});
+  long long zeros = 0;
+  for (int y = 0; y < depth.layout().height; ++y)
+    zeros += std::count(depth.row(y), depth.row(y) + depth.layout().width, 0.0f);
+  const long long pixels = (long long)depth.layout().width * depth.layout().height;
+  const bool is_zero_background = !stated.background && is_a_mark(zeros, pixels);
+  if (is_zero_background)
+    assumed.push_back(
+        fmt::format("depth: {:.1f} % of the pixels are stored as 0, and taken as background; {} says otherwise",
+                    100 * double(zeros) / double(pixels), option("background")));
+  for_each_row(depth.layout(), [&](int y) {
+    float* row = depth.row(y);
+    for (int x = 0; x < depth.layout().width; ++x) {
+      const bool is_nothing =
+          !(std::abs(row[x]) < background.from) || row[x] == background.value || (is_zero_background && row[x] == 0);
+      row[x] = is_nothing ? infinity : float(stated.scale.value_or(1) * double(row[x]) + stated.offset.value_or(0));
+    }
+  });
+}
+
 /// As above, of lengths whose background is +inf, or of their reciprocals, which become lengths.
-void to_lengths(Channel& depth, const StatedDepth& stated) {
-  const double scale = stated.scale.value_or(1), offset = stated.offset.value_or(0);
+void to_lengths(Channel& depth, bool is_done, const StatedDepth& stated) {
+  const double scale = is_done ? 1 : stated.scale.value_or(1), offset = is_done ? 0 : stated.offset.value_or(0);
   const bool is_inverse = stated.convention == DepthConvention::inverse;
   for_each_row(depth.layout(), [&](int y) {
     float* row = depth.row(y);
@@ -219,9 +242,12 @@ std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& wi
 
   const std::optional<double> far = stated.far ? stated.far : camera.far;
   const bool is_mapped = stated.scale || stated.offset || stated.convention == DepthConvention::inverse;
-  const StoredDepth found =
-      look_at_depth(rows_of(depth), background_of(stated.background, is_mapped ? std::nullopt : far),
-                    stated.background.has_value(), "; " + option("background") + " says otherwise");
+  // With these, signs and zeros are what comes of them, not what is stored.
+  const bool is_shifted = stated.offset || stated.scale.value_or(1) < 0;
+  if (is_shifted) shift(depth, stated, assumed);
+  const StoredDepth found = look_at_depth(
+      rows_of(depth), background_of(is_shifted ? std::nullopt : stated.background, is_mapped ? std::nullopt : far),
+      stated.background.has_value(), "; " + option("background") + " says otherwise");
   assumed.insert(assumed.end(), found.notes.begin(), found.notes.end());
   if (stated.near)
     assumed.push_back(fmt::format("depth: {} has no effect; {} and {} need it, and other depth is a distance already",
@@ -231,7 +257,7 @@ std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& wi
       is_free ? straightness_of(rows_of(depth), found.sign, found.background, window, camera) : Straightness{};
   clean_depth(depth, found.sign, found.background);
   if (is_mapped) {
-    to_lengths(depth, stated);
+    to_lengths(depth, is_shifted, stated);
     clean_depth(depth, 1, background_of({}, far));
   }
   if (stated.convention == DepthConvention::inverse) {

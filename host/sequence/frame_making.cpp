@@ -73,7 +73,7 @@ std::string identity_of(const FrameFiles& files) {
   std::string identity;
   uint64_t cameras = hash_of("");
   for (const FrameFile& file : files.files()) {
-    identity += identity_of(file.path()) + "; ";
+    for (const fs::path& part : file.parts_in_files()) identity += identity_of(part) + "; ";
     for (const std::string& view : file.views()) {
       const std::optional<Camera> camera = file.camera(view);
       cameras = hash_of(camera ? in_words(*camera) : "none", cameras);

@@ -182,6 +182,9 @@ ReadOptions SequenceFiles::options_for(const SequenceFrame& frame) const {
   ReadOptions options = options_;
   if (cameras_) options.camera_file = cameras_->path_of(frame.source);
   if (camera_list_) options.camera_text = camera_list_->text_of(frame.source);
+  for (auto& [plane, file] : options.plane_files)
+    if (FramePattern::is_pattern(file.string()))
+      file = FramePattern(file.string(), option("plane-file", plane)).path_of(frame.source);
   return options;
 }
 

@@ -60,6 +60,11 @@ std::string settings_in_words(const ShotRequest& request) {
   for (const auto& [name, number] : {std::pair{"near", reading.near}, {"far", reading.far}})
     if (number) add(name, *number);
   if (reading.background) add("background", *reading.background);
+  for (const auto& [name, number] :
+       {std::pair{"depth_scale", reading.depth_scale}, {"depth_offset", reading.depth_offset}})
+    if (number) add(name, *number);
+  if (reading.depth_bytes != DepthBytes::automatic) add("depth_bytes", int(reading.depth_bytes));
+  for (const auto& [plane, file] : reading.plane_files) add((plane + "_file").c_str(), file.string());
   if (reading.normals.axes) add("axes", in_words(*reading.normals.axes));
   const RunOptions& options = request.options;
   words += fmt::format(

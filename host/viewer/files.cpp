@@ -52,6 +52,7 @@ ViewedFile file_of(const ViewChoice& choice, size_t place, std::vector<std::stri
     const ReadOptions cameras = shot.options_for(frame);
     own.camera_file = cameras.camera_file;
     own.camera_text = cameras.camera_text;
+    own.plane_files = cameras.plane_files;
     file.frames.push_back({of_frame, frame.number, options_of(own, place, of_frame), {}, {}, 0});
   }
   return file;

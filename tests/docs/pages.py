@@ -118,7 +118,9 @@ PAGES = {
         not_run={"script/": SANITIZED},
         instead={"--runs 1000000 --seed 2": ("--runs 5000 --seed 2", MINUTES)}),
     "docs/gbuffer.md": Page(
-        prepare=FRAME + "gloam capture statue -o display.exr --display data/displays/small.json --size 60x420",
+        needs=("cv2",),
+        prepare=FRAME + """gloam capture statue -o display.exr --display data/displays/small.json --size 60x420
+            python3 "$SNIPPETS/images.py" frame.exr""",
         json=("camera.json",),
         check="[ -s views.png ] && [ -s line.png ] && gloam info frame.exr --camera camera.json | grep 'camera perspective, camera.json'"),
     "docs/light-field.md": Page(

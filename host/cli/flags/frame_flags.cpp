@@ -120,7 +120,7 @@ void FrameFlags::add_to(CLI::App& app) {
 
 bool FrameFlags::changes_depth() const {
   return near || far || background || depth_scale || depth_offset || depth_bytes != DepthBytes::automatic ||
-         !depth_file.empty() || depth != DepthConvention::automatic ||
+         planes_with_files(*this).count("depth") > 0 || depth != DepthConvention::automatic ||
          std::any_of(planes.begin(), planes.end(),
                      [](const std::string& plane) { return plane.starts_with("depth="); });
 }

@@ -31,7 +31,8 @@ struct ReadOptions {
   /// --plane-file: planes in files of their own, of any format that is read. With the frame's own path among them, that file is this plane
   /// and nothing else. A pattern gets the number in the frame's name.
   std::map<std::string, std::filesystem::path> plane_files;
-  NormalConvention normals;  ///< --normal-space, --normal-range, --normal-axes
+  std::filesystem::path calibration_file;  ///< found beside the frame: what states the scale of its disparities
+  NormalConvention normals;                ///< --normal-space, --normal-range, --normal-axes
   /// Of a frame of a shot: what was found of the normals for all of its frames (conventions.h), by the path of the frame's file: of two
   /// eyes each has its own. Called where normals are read and something of their convention is not stated; null: the frame's own decide.
   std::function<FoundNormals(const std::filesystem::path& file)> shot_normals;
@@ -95,6 +96,8 @@ class FrameFile {
   FrameFile(FrameFile&&) noexcept;
 
   const std::filesystem::path& path() const;
+  /// All files that its planes are made of: `path`, and those of planes in files of their own.
+  std::vector<std::filesystem::path> parts_in_files() const;
   Window display() const;
   /// Union of the display window and all data windows that hold known planes.
   Window window() const;
