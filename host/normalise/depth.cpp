@@ -9,7 +9,7 @@
 #include "normalise/background.h"
 #include "normalise/each_row.h"
 #include "normalise/stored_depth.h"
-#include "normalise/straightness.h"
+#include "normalise/told_depth.h"
 
 namespace gloam {
 
@@ -189,46 +189,6 @@ std::string window_to_depth(Channel& depth, const Channel* alpha, const Camera& 
   return reversed ? "reversed" : "ndc";
 }
 
-/// "683 of 686 straight pieces of rows and columns"
-std::string pieces(const Straightness& straightness, Straightness::Meaning meaning) {
-  return fmt::format("{} of {} straight pieces of rows and columns", straightness.of(meaning), straightness.all());
-}
-
-/// Depth of which nothing is stated: the ray's length, where plane surfaces are plane by that alone. In a shot it stays z, since every frame is
-/// read alike, and the note says so.
-bool is_along_rays(const Straightness& straightness, bool is_of_shot, std::vector<std::string>& assumed) {
-  if (straightness.meaning() != Straightness::along_ray) return false;
-  const std::string why = pieces(straightness, Straightness::along_ray);
-  if (is_of_shot)
-    assumed.push_back(fmt::format(
-        "depth: plane surfaces are plane if it is the distance along the ray ({}), and it is read as planar distance: "
-        "{} reads a whole shot so",
-        why, option("depth", "ray")));
-  else
-    assumed.push_back(fmt::format(
-        "depth: taken as the distance along the ray, by which plane surfaces are plane ({}); {} says otherwise", why,
-        option("depth", "z")));
-  return !is_of_shot;
-}
-
-/// The note on depth that is taken as planar.
-std::string note_on_planar(const Straightness& straightness, bool is_in_unit_interval) {
-  const std::string taken = "depth: taken as planar distance along the viewing axis";
-  switch (straightness.meaning()) {
-    case Straightness::planar:
-      return fmt::format("{}, by which plane surfaces are plane; {} says otherwise", taken, option("depth"));
-    case Straightness::of_inverse:
-      return fmt::format(
-          "{}, though plane surfaces are plane if 1/z is a linear function of it ({}): it is likely {}; {} or {} with "
-          "{}, or {}, reads it",
-          taken, pieces(straightness, Straightness::of_inverse),
-          is_in_unit_interval ? "normalised device depth" : "a disparity", option("depth", "ndc"),
-          option("depth", "reversed"), option("near"), option("depth", "inverse"));
-    default:
-      return note_on_planar_depth(is_in_unit_interval);
-  }
-}
-
 }  // namespace
 
 std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& window, const Camera& camera,
@@ -248,13 +208,14 @@ std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& wi
   const StoredDepth found = look_at_depth(
       rows_of(depth), background_of(is_shifted ? std::nullopt : stated.background, is_mapped ? std::nullopt : far),
       stated.background.has_value(), "; " + option("background") + " says otherwise");
+  if (stated.convention == DepthConvention::automatic && !is_shifted) {
+    const StatedDepth told = told_by_planes(depth, found, window, camera, stated, assumed);
+    return to_view_depth(depth, alpha, window, camera, told, assumed);
+  }
   assumed.insert(assumed.end(), found.notes.begin(), found.notes.end());
   if (stated.near)
     assumed.push_back(fmt::format("depth: {} has no effect; {} and {} need it, and other depth is a distance already",
                                   option("near"), option("depth", "ndc"), option("depth", "reversed")));
-  const bool is_free = stated.convention == DepthConvention::automatic && !stated.offset;
-  const Straightness straightness =
-      is_free ? straightness_of(rows_of(depth), found.sign, found.background, window, camera) : Straightness{};
   clean_depth(depth, found.sign, found.background);
   if (is_mapped) {
     to_lengths(depth, is_shifted, stated);
@@ -268,13 +229,13 @@ std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& wi
           option("depth-scale")));
     return "inverse";
   }
-  if (stated.convention == DepthConvention::ray || is_along_rays(straightness, stated.is_of_shot, assumed)) {
+  if (stated.convention == DepthConvention::ray) {
     if (!camera.orthographic) ray_to_depth(depth, window, camera);
     return "ray";
   }
   if (found.sign < 0) return "negative z";
   if (stated.convention == DepthConvention::automatic)
-    assumed.push_back(note_on_planar(straightness, found.is_in_unit_interval));
+    assumed.push_back(note_on_planar_depth(found.is_in_unit_interval));
   return "z";
 }
 

@@ -17,6 +17,8 @@ constexpr int most_segments = 6000;
 constexpr double largest_bend = 0.01, least_ratio = 3;
 constexpr double least_share = 0.8;
 constexpr double least_variation = 0.5;
+/// A pole nearer to 0 than this share of the least value is 0.
+constexpr double beside_zero = 0.05;
 
 using Values = std::array<double, longest_segment>;
 
@@ -74,7 +76,151 @@ Straightness::Meaning meaning_of(const DepthRows& depth, float sign, const Backg
   return meaning == Straightness::along_ray && tells_little ? Straightness::unknown : meaning;
 }
 
+/// Calls `look(x, y, walk)` for segments all over an image.
+template <typename Look>
+void for_segments(int width, int height, int length, int most, const Look& look) {
+  const double in_all = 2.0 * width * height / (length / 3.0);
+  const int apart = std::max(2, int(in_all / most)), next = std::max(1, length / 3);
+  for (const Walk& walk : {Walk{length, 1, 0}, Walk{length, 0, 1}}) {
+    const bool is_row = walk.step_x == 1;
+    for (int line = apart / 2; line < (is_row ? height : width); line += apart)
+      for (int first = 0; first + length <= (is_row ? width : height); first += next)
+        look(is_row ? first : line, is_row ? line : first, walk);
+  }
+}
+
+int length_for(const DepthRows& depth) {
+  return std::clamp(std::min(depth.width, depth.height) / 4, shortest_segment, longest_segment);
+}
+
+/// Whether all values of a segment are those of surfaces; takes them.
+bool take_values(const DepthRows& depth, const Background& background, int x, int y, const Walk& walk, Values& values) {
+  for (int i = 0; i < walk.count; ++i) {
+    const float value = depth.row(y + i * walk.step_y)[x + i * walk.step_x];
+    if (!is_surface(value, background)) return false;
+    values[size_t(i)] = double(value);
+  }
+  return true;
+}
+
+/// How far segments bend if distances are proportional to how far a value is from the pole.
+double bend_for_pole(const Values& values, int count, double pole) {
+  Values inverse;
+  for (int i = 0; i < count; ++i) inverse[size_t(i)] = 1 / (values[size_t(i)] - pole);
+  return bend_of(inverse, count);
+}
+
+/// Poles beside the values, at shares of their range from 0.02 to 30; the first stands for none, where the values themselves are straight.
+std::vector<double> poles_beside(double low, double high) {
+  constexpr int on_a_side = 28;
+  constexpr double nearest = 0.02, farthest = 30;
+  std::vector<double> poles = {std::numeric_limits<double>::infinity()};
+  for (int i = 0; i < on_a_side; ++i) {
+    const double away = (high - low) * nearest * std::pow(farthest / nearest, i / (on_a_side - 1.0));
+    poles.push_back(low - away);
+    poles.push_back(high + away);
+  }
+  return poles;
+}
+
+double bend_for(const Values& values, int count, double pole) {
+  return std::isfinite(pole) ? bend_for_pole(values, count, pole) : bend_of(values, count);
+}
+
+/// The pole between two that bends segments least in the middle of them, by golden sections.
+double refined(const std::vector<Values>& segments, int count, double first, double last) {
+  const auto bend = [&](double pole) {
+    std::vector<double> bends;
+    for (const Values& values : segments) bends.push_back(bend_for_pole(values, count, pole));
+    std::nth_element(bends.begin(), bends.begin() + std::ptrdiff_t(bends.size() / 2), bends.end());
+    return bends[bends.size() / 2];
+  };
+  constexpr double golden = 0.6180339887498949;
+  constexpr int steps = 30;
+  for (int i = 0; i < steps; ++i) {
+    const double a = last - golden * (last - first), b = first + golden * (last - first);
+    if (bend(a) < bend(b))
+      last = b;
+    else
+      first = a;
+  }
+  return 0.5 * (first + last);
+}
+
 }  // namespace
+
+std::optional<LinearGrey> linear_grey_of(const DepthRows& depth, const Background& background) {
+  constexpr int most_of_grey = 2000;
+  constexpr double ends = 0.005, least_spread = 5, spare = 1e-4;
+  const int length = length_for(depth);
+  if (depth.width < length || depth.height < length) return {};
+  std::vector<Values> segments;
+  std::vector<double> all;
+  for_segments(depth.width, depth.height, length, most_of_grey, [&](int x, int y, const Walk& walk) {
+    Values values;
+    if (!take_values(depth, background, x, y, walk, values)) return;
+    segments.push_back(values);
+    all.push_back(values.front());
+  });
+  if ((long long)segments.size() < Straightness::fewest) return {};
+  std::sort(all.begin(), all.end());
+  const double low = all[size_t(ends * double(all.size()))], high = all[size_t((1 - ends) * double(all.size() - 1))];
+  const auto is_between = [&](double value) { return value >= low && value <= high; };
+  std::erase_if(segments, [&](const Values& values) {
+    return !std::all_of(values.begin(), values.begin() + length, is_between);
+  });
+  if (!(high > low)) return {};
+  const std::vector<double> poles = poles_beside(low, high);
+  std::vector<std::vector<double>> bends(segments.size());
+#pragma omp parallel for schedule(dynamic, 16)
+  for (size_t i = 0; i < segments.size(); ++i)
+    for (const double pole : poles) bends[i].push_back(bend_for(segments[i], length, pole));
+  std::vector<long long> spoken(poles.size(), 0);
+  std::vector<size_t> speaking;
+  for (size_t i = 0; i < segments.size(); ++i) {
+    const auto [least, most] = std::minmax_element(bends[i].begin(), bends[i].end());
+    if (!(*least < largest_bend) || !(*most > least_spread * *least)) continue;
+    speaking.push_back(i);
+    for (size_t p = 0; p < poles.size(); ++p) spoken[p] += bends[i][p] < 2 * *least + spare;
+  }
+  const size_t best = size_t(std::max_element(spoken.begin(), spoken.end()) - spoken.begin());
+  LinearGrey found;
+  found.pole = poles[best];
+  found.segments = spoken[best], found.all = (long long)speaking.size();
+  const bool is_clear =
+      found.segments >= Straightness::fewest && double(found.segments) >= least_share * double(found.all);
+  if (!is_clear) return {};
+  if (best == 0) return found;
+  std::vector<Values> straight;
+  for (const size_t i : speaking)
+    if (bends[i][best] < largest_bend) straight.push_back(segments[i]);
+  LinearGrey grey = found;
+  grey.is_above = poles[best] > high;
+  // between its neighbours on the same side
+  const double side = grey.is_above ? high : low, nearer = side + (poles[best] - side) / 1.5,
+               farther = side + (poles[best] - side) * 1.5;
+  grey.pole = refined(straight, length, std::min(nearer, farther), std::max(nearer, farther));
+  grey.is_zero = std::abs(grey.pole) < beside_zero * low;
+  return grey;
+}
+
+bool is_proportional_to_distance(const DepthRows& depth, const Background& background) {
+  constexpr int enough = 1000;
+  constexpr double least_gain = 2;
+  const int length = length_for(depth);
+  long long for_zero = 0, all = 0;
+  for_segments(depth.width, depth.height, length, enough, [&](int x, int y, const Walk& walk) {
+    Values values;
+    if (!take_values(depth, background, x, y, walk, values)) return;
+    const double bend = bend_for_pole(values, length, 0);
+    if (!(bend < largest_bend)) return;
+    const double low = *std::min_element(values.begin(), values.begin() + length), away = beside_zero * low;
+    ++all;
+    for_zero += bend_for_pole(values, length, away) > least_gain * bend &&
+                bend_for_pole(values, length, -away) > least_gain * bend;
+  });
+  return double(for_zero) >= least_share * double(all);
+}
 
 Straightness::Meaning Straightness::meaning() const {
   for (const Meaning meaning : {planar, along_ray, of_inverse})
@@ -85,18 +231,11 @@ Straightness::Meaning Straightness::meaning() const {
 Straightness straightness_of(const DepthRows& depth, float sign, const Background& background, const Window& window,
                              const Camera& camera) {
   Straightness found;
-  const int length = std::clamp(std::min(depth.width, depth.height) / 4, shortest_segment, longest_segment);
+  const int length = length_for(depth);
   if (camera.orthographic || camera.slits || depth.width < length || depth.height < length) return found;
-  const double in_all = 2.0 * depth.width * depth.height / (length / 3.0);
-  const int apart = std::max(2, int(in_all / most_segments)), next = std::max(1, length / 3);
-  for (const Walk& walk : {Walk{length, 1, 0}, Walk{length, 0, 1}}) {
-    const bool is_row = walk.step_x == 1;
-    for (int line = apart / 2; line < (is_row ? depth.height : depth.width); line += apart) {
-      for (int first = 0; first + length <= (is_row ? depth.width : depth.height); first += next)
-        ++found.segments[meaning_of(depth, sign, background, window, camera, is_row ? first : line,
-                                    is_row ? line : first, walk)];
-    }
-  }
+  for_segments(depth.width, depth.height, length, most_segments, [&](int x, int y, const Walk& walk) {
+    ++found.segments[meaning_of(depth, sign, background, window, camera, x, y, walk)];
+  });
   return found;
 }
 

@@ -1,6 +1,8 @@
 // What stored depth means, told by plane surfaces: only with the right meaning they are plane.
 #pragma once
 
+#include <optional>
+
 #include "gloam/camera.h"
 #include "gloam/frame.h"
 #include "normalise/stored_depth.h"
@@ -25,5 +27,21 @@ struct Straightness {
 /// orthographic camera nothing is told.
 Straightness straightness_of(const DepthRows& depth, float sign, const Background& background, const Window& window,
                              const Camera& camera);
+
+/// Values that are linear in the distance, but not proportional to it, such as a grey between black and white.
+struct LinearGrey {
+  double pole =
+      0;  ///< the value at distance 0: the distance is proportional to how far a value is from there; infinite: 1 / distance is
+          ///< linear in the values
+  bool is_above = false;            ///< all values: larger ones are nearer
+  bool is_zero = false;             ///< as good as: the values are proportional to the distance
+  long long segments = 0, all = 0;  ///< that speak for it, of those that speak at all
+};
+
+/// Whether plane surfaces are plane by 1/value, and less so by 1/(value - pole) with poles that lie a little beside 0.
+bool is_proportional_to_distance(const DepthRows& depth, const Background& background);
+
+/// Finds the pole, outside of all values, for which 1/(value - pole) is straight where surfaces are plane; none if they tell of none.
+std::optional<LinearGrey> linear_grey_of(const DepthRows& depth, const Background& background);
 
 }  // namespace gloam
