@@ -209,8 +209,11 @@ std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& wi
       rows_of(depth), background_of(is_shifted ? std::nullopt : stated.background, is_mapped ? std::nullopt : far),
       stated.background.has_value(), "; " + option("background") + " says otherwise");
   if (stated.convention == DepthConvention::automatic && !is_shifted) {
-    const StatedDepth told = told_by_planes(depth, found, window, camera, stated, assumed);
-    return to_view_depth(depth, alpha, window, camera, told, assumed);
+    std::vector<std::string> notes;
+    const StatedDepth told = told_by_planes(depth, found, window, camera, stated, notes);
+    const std::string convention = to_view_depth(depth, alpha, window, camera, told, assumed);
+    assumed.insert(assumed.end(), notes.begin(), notes.end());
+    return convention;
   }
   assumed.insert(assumed.end(), found.notes.begin(), found.notes.end());
   if (stated.near)

@@ -132,6 +132,7 @@ StatedDepth told_by_planes(const Channel& depth, const StoredDepth& found, const
   if (straightness.meaning() == Straightness::of_inverse && found.sign > 0) {
     return linear_in_inverse(untold, pieces(straightness.of(Straightness::of_inverse), straightness.all()), assumed);
   }
+  if (found.sign < 0) return read_as(stated, DepthConvention::z);  // which another note tells
   if (straightness.meaning() == Straightness::planar)
     assumed.push_back(fmt::format("depth: taken as planar distance along the viewing axis, {}; {} says otherwise",
                                   by_planes, option("depth")));
