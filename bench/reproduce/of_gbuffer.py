@@ -1,7 +1,10 @@
 """docs/gbuffer.md"""
-from catalogue import table
+import warnings
+
+from catalogue import no_figures, table
 
 PAGE = "docs/gbuffer.md"
+no_figures(PAGE, "Conventions inside", 2, why="what is read as what")
 
 
 def stored(depth, camera):
@@ -30,7 +33,9 @@ def of_frame(lab, frame, fov=None):
     for values, stated, is_length in stored(truth, frame.camera):
         file = lab.folder_for("meanings") / "depth.npy"
         numpy.save(file, values.astype(numpy.float32))
-        read = gloam.read(file, fov=fov or own, **stated)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", gloam.Note)
+            read = gloam.read(file, fov=fov or own, **stated)
         note = next(note for note in read.notes if note.startswith("depth: taken as"))
         both = numpy.isfinite(truth) & numpy.isfinite(read["depth"])
         factors = read["depth"][both] / truth[both]
@@ -47,7 +52,7 @@ def scenes():
     return [gloam.capture(name, 640, 360, ["depth"]) for name in gloam.scenes()]
 
 
-@table(PAGE, "Conventions inside", 2, minutes=1)
+@table(PAGE, "Conventions inside", 3, minutes=1)
 def meanings_of_depth(lab):
     of_frames = [of_frame(lab, frame) for frame in scenes()]
     return [[(sum(frame[row][column] for frame in of_frames),) for column in range(4)] for row in range(len(of_frames[0]))]
