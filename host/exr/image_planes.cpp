@@ -52,11 +52,24 @@ double mean_difference(const Channel& channel) {
   return sum;
 }
 
+/// The lowest byte wraps from pixel to pixel as noise does, and the highest hardly changes; no picture has such components.
+void check_packed(const ImageValues& image, bool is_stated, const ImageWords& file) {
+  constexpr double least_ratio = 4;
+  const double red = mean_difference(image.channels[0]), blue = mean_difference(image.channels[2]);
+  if (is_stated || std::max(red, blue) >= least_ratio * std::min(red, blue)) return;
+  throw Error(
+      "{}: has three components that vary alike, as a picture's do, and depth of 24 bits has one byte that hardly "
+      "varies; "
+      "name a file of depth, or say {} or high-first",
+      file.path, option("depth-bytes", "low-first"));
+}
+
 /// Depth in three bytes of 8 bits, as a share of 2^24 - 1.
 Channel packed_depth(const ImageValues& image, const ImageWords& file, const ReadOptions& options,
                      std::vector<std::string>& notes) {
   const Channel &red = image.channels[0], &green = image.channels[1], &blue = image.channels[2];
   const bool is_stated = options.depth_bytes != DepthBytes::automatic;
+  check_packed(image, is_stated, file);
   const bool is_red_lowest =
       is_stated ? options.depth_bytes == DepthBytes::low_first : mean_difference(red) >= mean_difference(blue);
   const Channel &low = is_red_lowest ? red : blue, &high = is_red_lowest ? blue : red;
@@ -130,7 +143,7 @@ Channel depth_of(ImageValues image, const ImageWords& file, const ReadOptions& o
   notes.push_back(fmt::format(
       "depth: {} holds whole numbers of {} bits, {:g} to {:g}{}{}", file.name, image.largest > 255 ? 16 : 8, least,
       most,
-      options.depth_scale || options.depth_offset
+      options.depth_scale || options.depth_offset || options.depth == DepthConvention::inverse
           ? ""
           : fmt::format(", taken for scene units; {} makes metres of millimetres", option("depth-scale", "0.001")),
       image.largest > 255 ? "" : ": 256 steps are too few for smooth surfaces"));

@@ -12,7 +12,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include "base/lists.h"
 #include "base/words.h"
@@ -179,6 +181,19 @@ void take_declared(const std::string& plane, const FrameFile& file, ReadOptions&
   }
 }
 
+/// The same of a file's name: WorldNormal, normal_world.
+void take_declared(const fs::path& file, ReadOptions& options) {
+  if (options.normals.space != NormalSpace::automatic) return;
+  std::vector<std::string> words = words_in(file.stem().string());
+  const size_t single = words.size();
+  for (size_t i = 0; i + 1 < single; ++i) words.push_back(words[i] + words[i + 1]);
+  for (const channel_names::Spelling& spelling : channel_names::spellings()) {
+    if (spelling.plane != "normal" || !contains(words, spelling.layer)) continue;
+    if (spelling.said == DeclaredConvention::world_space) options.normals.space = NormalSpace::world;
+    if (spelling.said == DeclaredConvention::view_space) options.normals.space = NormalSpace::view;
+  }
+}
+
 /// The plane of an EXR that holds it under any name, or nothing else: red, green and blue, or the only channel.
 ImageValues plane_of_exr(const std::string& plane, const fs::path& path, long long most_pixels,
                          ReadOptions& frame_options) {
@@ -216,7 +231,8 @@ ImageValues only_image(const std::string& plane, const fs::path& file, const Rea
               enumerate(names), plane, option("plane", plane + "=NAME"));
 }
 
-void add_plane_file(const std::string& plane, const fs::path& file, ReadOptions& options, Composed& composed) {
+void add_stated_plane_file(const std::string& plane, const fs::path& file, ReadOptions& options, Composed& composed) {
+  if (plane == "normal") take_declared(file, options);
   ImageValues image = is_image_file(file) ? only_image(plane, file, options)
                       : is_exr(file)
                           ? plane_of_exr(plane, file, options.most_pixels, options)
@@ -225,8 +241,38 @@ void add_plane_file(const std::string& plane, const fs::path& file, ReadOptions&
                composed);
 }
 
+/// A plane that nobody named, but that lies where a writer puts it, is left out where it does not fit.
+void add_plane_file(const std::string& plane, const fs::path& file, bool is_stated, ReadOptions& options,
+                    Composed& composed) {
+  if (is_stated) return add_stated_plane_file(plane, file, options, composed);
+  try {
+    add_stated_plane_file(plane, file, options, composed);
+  } catch (const Error& error) {
+    composed.notes.push_back(fmt::format("{}: left out: {}", plane, error.what()));
+  }
+}
+
+/// A 3x3 matrix of intrinsics gives the field of view, where no camera does.
+bool take_intrinsics(const ImageValues& image, const Layout& size, ReadOptions& options,
+                     std::vector<std::string>& notes) {
+  const Channel& matrix = image.channels.front();
+  if (image.layout() != Layout(3, 3) || image.channels.size() != 1 || options.fov_degrees ||
+      !options.camera_file.empty())
+    return false;
+  const double focal = double(matrix.at(0, 0));
+  if (!(focal > 0) || matrix.at(2, 2) != 1 || matrix.at(0, 1) != 0 || matrix.at(1, 0) != 0) return false;
+  const double fov = 2 * std::atan(size.width / (2 * focal)) * 180 / std::numbers::pi;
+  if (!(fov >= 1 && fov <= 179)) return false;
+  options.fov_degrees = fov;
+  notes.push_back(
+      fmt::format("camera: the field of view, {:.4g} degrees, is that of the matrix '{}', with square pixels and a "
+                  "centred lens; {} says otherwise",
+                  fov, printable(image.name), option("camera", "FILE")));
+  return true;
+}
+
 /// The arrays of the size that depth has, or else that most have.
-void add_arrays(std::vector<ImageValues> images, const fs::path& path, const ReadOptions& options, Composed& composed) {
+void add_arrays(std::vector<ImageValues> images, const fs::path& path, ReadOptions& options, Composed& composed) {
   const auto is_depth = [](const ImageValues& image) { return plane_in_file_name(image.name) == "depth"; };
   const auto area = [](const ImageValues& image) { return (long long)image.layout().width * image.layout().height; };
   auto leading = std::find_if(images.begin(), images.end(), is_depth);
@@ -237,6 +283,7 @@ void add_arrays(std::vector<ImageValues> images, const fs::path& path, const Rea
   const std::string leading_name = printable(leading->name);
   for (ImageValues& image : images) {
     if (image.layout() != size) {
+      if (take_intrinsics(image, size, options, composed.notes)) continue;
       composed.notes.push_back(fmt::format("{}: the array '{}' of {}x{} is left out: '{}' is {}x{}",
                                            path.filename().string(), printable(image.name), image.layout().width,
                                            image.layout().height, leading_name, size.width, size.height));
@@ -249,7 +296,7 @@ void add_arrays(std::vector<ImageValues> images, const fs::path& path, const Rea
 }
 
 /// An image alone: the plane that its name speaks of, else depth if it has one component, else colour.
-void add_image_alone(const fs::path& path, const ReadOptions& options, Composed& composed) {
+void add_image_alone(const fs::path& path, ReadOptions& options, Composed& composed) {
   std::vector<ImageValues> images = read_images(path, options.most_pixels);
   const std::string file = path.filename().string();
   if (holds_arrays(path)) return add_arrays(std::move(images), path, options, composed);
@@ -257,9 +304,8 @@ void add_image_alone(const fs::path& path, const ReadOptions& options, Composed&
   if (plane.empty() && is_named_for_disparities(path)) plane = "depth";
   if (plane.empty()) {
     plane = images.front().channels.size() <= 2 ? "depth" : "color";
-    composed.notes.push_back(fmt::format("{}: taken for the {}, since its name says nothing; {} says what it is", file,
-                                         plane == "color" ? "colours" : "depth",
-                                         option("plane-file", "PLANE=" + file)));
+    composed.notes.push_back(fmt::format("{}: taken for the {}, since its name says nothing of another plane", file,
+                                         plane == "color" ? "colours" : "depth"));
   }
   add_channels(channels_of_plane(plane, std::move(images.front()), words_for(path), options, composed.notes),
                path.string(), composed);
@@ -342,6 +388,8 @@ std::unique_ptr<ExrInput> open_input(const fs::path& path, ReadOptions& options,
                        channels_option(plane, options.channels.at(plane)), file.string());
   }
   const bool is_image = is_image_file(path);
+  std::vector<std::string> stated = {"depth"};
+  for (const auto& [plane, file] : options.plane_files) stated.push_back(plane);
   const auto depth_file = options.plane_files.find("depth");
   if (is_image && (depth_file == options.plane_files.end() || is_same(depth_file->second, path)))
     take_writer(path, options, notes);
@@ -360,7 +408,7 @@ std::unique_ptr<ExrInput> open_input(const fs::path& path, ReadOptions& options,
     add_image_alone(path, options, composed);
   for (const char* const first : {"color", ""})  // whose alpha gives way to alpha in a file of its own
     for (const auto& [plane, file] : options.plane_files)
-      if ((plane == "color") == (*first != 0)) add_plane_file(plane, file, options, composed);
+      if ((plane == "color") == (*first != 0)) add_plane_file(plane, file, contains(stated, plane), options, composed);
   if (!is_exr_frame) header = header_of_images(path, options, composed);
   return guarded(path, [&] { return std::make_unique<ExrInput>(path, file_in_memory(header, composed, path)); });
 }

@@ -204,7 +204,7 @@ void take_writer(const fs::path& depth, ReadOptions& options, std::vector<std::s
   for (const auto& [plane, places] : writer->planes) {
     const std::optional<fs::path> file = file_of(depth, places);
     if (!file || options.channels.count(plane) || !options.plane_files.emplace(plane, *file).second) continue;
-    planes.push_back(fmt::format("{} from {}", plane, file->filename().string()));
+    planes.push_back(fmt::format("{} from {}", plane, (file->parent_path().filename() / file->filename()).string()));
   }
   options.plane_files.emplace("depth", depth);
   if (planes.empty() && said.empty()) return;

@@ -197,6 +197,8 @@ std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& wi
     throw UsageError(
         "{} ray, ndc, reversed and inverse need a single centre of projection; the depth of a display's module is z",
         option("depth"));
+  if (stated.scale && !(*stated.scale != 0))
+    throw UsageError("{}: every depth would be the same; any number but 0 is allowed", option("depth-scale", "0"));
   if (stated.convention == DepthConvention::ndc || stated.convention == DepthConvention::reversed)
     return window_to_depth(depth, alpha, camera, stated, assumed);
 

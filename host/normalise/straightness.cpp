@@ -19,6 +19,7 @@ constexpr double least_share = 0.8;
 constexpr double least_variation = 0.5;
 /// A pole nearer to 0 than this share of the least value is 0.
 constexpr double beside_zero = 0.05;
+constexpr long long fewest_each_way = 1;
 
 using Values = std::array<double, longest_segment>;
 
@@ -76,17 +77,23 @@ Straightness::Meaning meaning_of(const DepthRows& depth, float sign, const Backg
   return meaning == Straightness::along_ray && tells_little ? Straightness::unknown : meaning;
 }
 
-/// Calls `look(x, y, walk)` for segments all over an image.
-template <typename Look>
-void for_segments(int width, int height, int length, int most, const Look& look) {
+struct Segment {
+  int x = 0, y = 0;
+  Walk walk;
+};
+
+/// About so many segments, all over an image.
+std::vector<Segment> segments_of(int width, int height, int length, int most) {
   const double in_all = 2.0 * width * height / (length / 3.0);
   const int apart = std::max(2, int(in_all / most)), next = std::max(1, length / 3);
+  std::vector<Segment> segments;
   for (const Walk& walk : {Walk{length, 1, 0}, Walk{length, 0, 1}}) {
     const bool is_row = walk.step_x == 1;
     for (int line = apart / 2; line < (is_row ? height : width); line += apart)
       for (int first = 0; first + length <= (is_row ? width : height); first += next)
-        look(is_row ? first : line, is_row ? line : first, walk);
+        segments.push_back({is_row ? first : line, is_row ? line : first, walk});
   }
+  return segments;
 }
 
 int length_for(const DepthRows& depth) {
@@ -155,20 +162,29 @@ std::optional<LinearGrey> linear_grey_of(const DepthRows& depth, const Backgroun
   const int length = length_for(depth);
   if (depth.width < length || depth.height < length) return {};
   std::vector<Values> segments;
+  std::vector<char> is_column;
   std::vector<double> all;
-  for_segments(depth.width, depth.height, length, most_of_grey, [&](int x, int y, const Walk& walk) {
+  for (const Segment& segment : segments_of(depth.width, depth.height, length, most_of_grey)) {
     Values values;
-    if (!take_values(depth, background, x, y, walk, values)) return;
+    if (!take_values(depth, background, segment.x, segment.y, segment.walk, values)) continue;
     segments.push_back(values);
+    is_column.push_back(segment.walk.step_y == 1);
     all.push_back(values.front());
-  });
+  }
   if ((long long)segments.size() < Straightness::fewest) return {};
   std::sort(all.begin(), all.end());
   const double low = all[size_t(ends * double(all.size()))], high = all[size_t((1 - ends) * double(all.size() - 1))];
   const auto is_between = [&](double value) { return value >= low && value <= high; };
-  std::erase_if(segments, [&](const Values& values) {
-    return !std::all_of(values.begin(), values.begin() + length, is_between);
-  });
+  const auto is_within = [&](const Values& values) {
+    return std::all_of(values.begin(), values.begin() + length, is_between);
+  };
+  size_t kept = 0;
+  for (size_t i = 0; i < segments.size(); ++i) {
+    if (!is_within(segments[i])) continue;
+    segments[kept] = segments[i];
+    is_column[kept++] = is_column[i];
+  }
+  segments.resize(kept);
   if (!(high > low)) return {};
   const std::vector<double> poles = poles_beside(low, high);
   std::vector<std::vector<double>> bends(segments.size());
@@ -190,6 +206,9 @@ std::optional<LinearGrey> linear_grey_of(const DepthRows& depth, const Backgroun
   const bool is_clear =
       found.segments >= Straightness::fewest && double(found.segments) >= least_share * double(found.all);
   if (!is_clear) return {};
+  long long in_columns = 0;
+  for (const size_t i : speaking) in_columns += bends[i][best] < largest_bend && is_column[i];
+  found.is_both_ways = std::min(in_columns, found.segments - in_columns) >= fewest_each_way;
   if (best == 0) return found;
   std::vector<Values> straight;
   for (const size_t i : speaking)
@@ -209,16 +228,18 @@ bool is_proportional_to_distance(const DepthRows& depth, const Background& backg
   constexpr double least_gain = 2;
   const int length = length_for(depth);
   long long for_zero = 0, all = 0;
-  for_segments(depth.width, depth.height, length, enough, [&](int x, int y, const Walk& walk) {
+  const std::vector<Segment> segments = segments_of(depth.width, depth.height, length, enough);
+#pragma omp parallel for schedule(dynamic, 16) reduction(+ : for_zero, all)
+  for (size_t i = 0; i < segments.size(); ++i) {
     Values values;
-    if (!take_values(depth, background, x, y, walk, values)) return;
+    if (!take_values(depth, background, segments[i].x, segments[i].y, segments[i].walk, values)) continue;
     const double bend = bend_for_pole(values, length, 0);
-    if (!(bend < largest_bend)) return;
+    if (!(bend < largest_bend)) continue;
     const double low = *std::min_element(values.begin(), values.begin() + length), away = beside_zero * low;
     ++all;
     for_zero += bend_for_pole(values, length, away) > least_gain * bend &&
                 bend_for_pole(values, length, -away) > least_gain * bend;
-  });
+  }
   return double(for_zero) >= least_share * double(all);
 }
 
@@ -228,14 +249,30 @@ Straightness::Meaning Straightness::meaning() const {
   return unknown;
 }
 
+bool Straightness::is_of_inverse_both_ways() const {
+  return std::min(of_inverse_in_columns, of(of_inverse) - of_inverse_in_columns) >= fewest_each_way;
+}
+
 Straightness straightness_of(const DepthRows& depth, float sign, const Background& background, const Window& window,
                              const Camera& camera) {
   Straightness found;
   const int length = length_for(depth);
   if (camera.orthographic || camera.slits || depth.width < length || depth.height < length) return found;
-  for_segments(depth.width, depth.height, length, most_segments, [&](int x, int y, const Walk& walk) {
-    ++found.segments[meaning_of(depth, sign, background, window, camera, x, y, walk)];
-  });
+  const std::vector<Segment> segments = segments_of(depth.width, depth.height, length, most_segments);
+  long long planar = 0, along_ray = 0, of_inverse = 0, in_columns = 0;
+#pragma omp parallel for schedule(dynamic, 16) reduction(+ : planar, along_ray, of_inverse, in_columns)
+  for (size_t i = 0; i < segments.size(); ++i) {
+    const Straightness::Meaning meaning =
+        meaning_of(depth, sign, background, window, camera, segments[i].x, segments[i].y, segments[i].walk);
+    planar += meaning == Straightness::planar;
+    along_ray += meaning == Straightness::along_ray;
+    of_inverse += meaning == Straightness::of_inverse;
+    in_columns += meaning == Straightness::of_inverse && segments[i].walk.step_y == 1;
+  }
+  found.segments[Straightness::planar] = planar;
+  found.segments[Straightness::along_ray] = along_ray;
+  found.segments[Straightness::of_inverse] = of_inverse;
+  found.of_inverse_in_columns = in_columns;
   return found;
 }
 

@@ -16,8 +16,13 @@ struct Straightness {
   enum Meaning { unknown, planar, along_ray, of_inverse };
   long long segments[4] = {};  ///< that speak for each meaning
 
+  long long of_inverse_in_columns = 0;
+
   /// The meaning that at least `fewest` segments speak for, and at least four fifths of all.
   Meaning meaning() const;
+  /// Whether both rows and columns say that 1/z is linear in the values. A ramp that a person made, whose values and not 1/z are linear
+  /// along rows alone, says so too.
+  bool is_of_inverse_both_ways() const;
   long long of(Meaning meaning) const { return segments[meaning]; }
   long long all() const { return segments[planar] + segments[along_ray] + segments[of_inverse]; }
   static constexpr long long fewest = 24;
@@ -33,6 +38,7 @@ struct LinearGrey {
   double pole =
       0;  ///< the value at distance 0: the distance is proportional to how far a value is from there; infinite: 1 / distance is
           ///< linear in the values
+  bool is_both_ways = false;        ///< rows and columns speak for it
   bool is_above = false;            ///< all values: larger ones are nearer
   bool is_zero = false;             ///< as good as: the values are proportional to the distance
   long long segments = 0, all = 0;  ///< that speak for it, of those that speak at all

@@ -67,7 +67,8 @@ StatedDepth along_rays(const Untold& untold, const Straightness& straightness, s
 }
 
 /// 1/z is a linear function of what is stored: normalised device depth where all of it lies in 0 to 1, else disparities.
-StatedDepth linear_in_inverse(const Untold& untold, const std::string& why, std::vector<std::string>& assumed) {
+StatedDepth linear_in_inverse(const Untold& untold, bool is_both_ways, const std::string& why,
+                              std::vector<std::string>& assumed) {
   const StatedDepth& stated = untold.stated;
   const bool is_window_depth = untold.found.is_in_unit_interval;
   const bool is_reversed = median_of_surfaces(untold.depth, untold.found.background) < 0.5f;
@@ -76,7 +77,7 @@ StatedDepth linear_in_inverse(const Untold& untold, const std::string& why, std:
     return only_told(untold, "normalised device depth", why,
                      fmt::format("{} with {} and {} reads it", option("depth", "ndc"), option("near"), option("far")),
                      assumed);
-  if (stated.is_of_shot || stated.scale)
+  if (stated.is_of_shot || stated.scale || !is_both_ways)
     return only_told(untold, is_window_depth ? "normalised device depth" : "a disparity", why,
                      option("depth", is_window_depth ? (is_reversed ? "reversed" : "ndc") : "inverse") + " reads it so",
                      assumed);
@@ -121,16 +122,18 @@ StatedDepth told_by_planes(const Channel& depth, const StoredDepth& found, const
   const Straightness straightness = straightness_of(rows, found.sign, found.background, window, camera);
   if (straightness.meaning() == Straightness::along_ray) return along_rays(untold, straightness, assumed);
   const bool may_be_grey = found.sign > 0 && !camera.orthographic && !camera.slits &&
-                           (found.is_in_unit_interval || straightness.meaning() == Straightness::planar);
+                           (found.is_in_unit_interval || straightness.meaning() != Straightness::of_inverse);
   const bool is_proportional =
       straightness.meaning() == Straightness::planar && is_proportional_to_distance(rows, found.background);
   if (may_be_grey && !is_proportional) {
     const std::optional<LinearGrey> grey = linear_grey_of(rows, found.background);
-    if (grey && std::isinf(grey->pole)) return linear_in_inverse(untold, pieces(grey->segments, grey->all), assumed);
+    if (grey && std::isinf(grey->pole))
+      return linear_in_inverse(untold, grey->is_both_ways, pieces(grey->segments, grey->all), assumed);
     if (grey && !grey->is_zero) return of_grey(untold, *grey, assumed);
   }
   if (straightness.meaning() == Straightness::of_inverse && found.sign > 0) {
-    return linear_in_inverse(untold, pieces(straightness.of(Straightness::of_inverse), straightness.all()), assumed);
+    return linear_in_inverse(untold, straightness.is_of_inverse_both_ways(),
+                             pieces(straightness.of(Straightness::of_inverse), straightness.all()), assumed);
   }
   if (found.sign < 0) return read_as(stated, DepthConvention::z);  // which another note tells
   if (straightness.meaning() == Straightness::planar)

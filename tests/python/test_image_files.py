@@ -509,3 +509,50 @@ def test_a_small_file_cannot_claim_much_memory(tmp_path, name, contents):
     with pytest.raises(gloam.Error, match=name):
         read(tmp_path / name)
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 1 << 18  # kilobytes
+
+
+def test_a_file_that_is_named_for_a_space_of_normals_states_it(planes, tmp_path):
+    numpy.save(tmp_path / "depth.npy", planes["depth"])
+    for name, is_world in (("room_WorldNormal", True), ("normal_world", True), ("room_normal", False)):
+        numpy.save(tmp_path / f"{name}.npy", planes["normal"])
+        frame = read(tmp_path / "depth.npy", plane_files={"normal": tmp_path / f"{name}.npy"})
+        assert ("normal" not in frame.planes) == is_world, (name, frame.notes)  # without a pose, world space cannot be used
+
+
+def test_a_picture_is_no_depth_of_24_bits(planes, tmp_path):
+    grey = numpy.clip(numpy.where(numpy.isfinite(planes["depth"]), planes["depth"] / 15, 1) * 255, 0, 255).astype(numpy.uint8)
+    cv2.imwrite(str(tmp_path / "depth.png"), cv2.applyColorMap(grey, cv2.COLORMAP_TURBO))
+    with pytest.raises(gloam.Error, match="vary alike"):
+        read(tmp_path / "depth.png")
+    read(tmp_path / "depth.png", depth_bytes="low-first")
+
+
+def test_a_scale_of_0_is_refused(planes, tmp_path):
+    numpy.save(tmp_path / "depth.npy", planes["depth"])
+    with pytest.raises(gloam.UsageError, match="depth_scale=0"):
+        read(tmp_path / "depth.npy", depth_scale=0)
+
+
+def test_a_plane_of_a_writer_that_does_not_fit_is_left_out(planes, tmp_path):
+    save(tmp_path / "distance_to_image_plane_0000.npy", planes["depth"])
+    save(tmp_path / "normals_0000.png", normals_of_bytes(planes)[::2, ::2])
+    frame = read(tmp_path / "distance_to_image_plane_0000.npy")
+    assert "normal" not in frame.planes and any("normal: left out" in note and "75x45" in note for note in frame.notes)
+
+
+def test_intrinsics_beside_the_arrays_give_the_field_of_view(planes, tmp_path):
+    numpy.savez(tmp_path / "frame.npz", depth=planes["depth"], K=numpy.array([[96.0, 0, 75], [0, 96, 45], [0, 0, 1]]))
+    frame = gloam.read(tmp_path / "frame.npz")
+    assert frame.camera.fx == pytest.approx(96) and any("matrix 'K'" in note for note in frame.notes)
+    assert gloam.read(tmp_path / "frame.npz", fov=60).camera.fx == pytest.approx(75 / numpy.tan(numpy.radians(30)))
+
+
+def test_a_grey_in_whole_numbers_tells_its_ends(tmp_path):
+    frame = gloam.capture("gallery", 640, 360, ["depth"])
+    depth, surface = frame["depth"], numpy.isfinite(frame["depth"])
+    black, white = 1.2 * depth[surface].max(), 0.5 * depth[surface].min()
+    cv2.imwrite(str(tmp_path / "ZDepth.png"), numpy.where(surface, numpy.round(65535 * (black - depth) / (black - white)), 0).astype(numpy.uint16))
+    grey = gloam.read(tmp_path / "ZDepth.png", fov=float(numpy.degrees(2 * numpy.arctan(320 / frame.camera.fx))))
+    both = surface & numpy.isfinite(grey["depth"])
+    factors = grey["depth"][both] / depth[both]
+    assert numpy.percentile(numpy.abs(factors / numpy.median(factors) - 1), 95) < 0.02, grey.notes

@@ -558,7 +558,7 @@ TEST(ReadExr, OneChannelMayServeTwoPlanes) {
 TEST(RefuseExr, WhatIsNoFileOrNoExr) {
   Folder folder;
   expect_one_line(read_error(folder / "none.exr"), "none.exr", "No such file");
-  expect_one_line(read_error(folder.path), folder.path, "directory");
+  expect_one_line(read_error(folder.path), folder.path, "is a folder");
   std::ofstream(folder / "text.exr") << "hello, this is text";
   expect_one_line(read_error(folder / "text.exr"), "text.exr", "not an EXR");
   std::ofstream(folder / "empty.exr").close();

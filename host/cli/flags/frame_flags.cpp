@@ -62,7 +62,7 @@ std::map<std::string, std::filesystem::path> planes_with_files(const FrameFlags&
 }  // namespace
 
 void FrameArguments::add_to(CLI::App& app) {
-  add_text(app, "frame", frame, "FRAME.exr", "EXR file")->required();
+  add_text(app, "frame", frame, "FRAME.exr", "EXR file, or PNG, TIFF, PFM, HDR, NPY, NPZ, HDF5")->required();
   add_text(app, "other_eye", other_eye, "RIGHT.exr",
            "the second eye, where FRAME.exr holds one view and this file the other");
   add_text(app, "--history", history, "PREVIOUS.exr",
@@ -94,7 +94,7 @@ void FrameFlags::add_to(CLI::App& app) {
   add_choice(app, "--depth", depth, depth_words, "what depth values mean");
   add_number(app, "--near", near, {0, infinity}, "near plane, scene units (for ndc and reversed)", "Z");
   add_number(app, "--far", far, {0, infinity}, "far plane, scene units; depth there is background", "Z");
-  add_number(app, "--background", background, {-most_float, most_float, true}, "the depth value that means background",
+  add_number(app, "--background", background, {-most_float, most_float, true}, "the stored depth that means background",
              "VALUE");
   add_number(app, "--depth-scale", depth_scale, {-most_float, most_float},
              "what is stored as depth is multiplied by this: 0.001 makes metres of millimetres", "S");
