@@ -17,11 +17,10 @@
 #include <numbers>
 
 #include "base/lists.h"
-#include "base/words.h"
 #include "exr/channel_names.h"
-#include "exr/channel_spellings.h"
 #include "exr/channel_text.h"
 #include "exr/errors.h"
+#include "exr/image_names.h"
 #include "exr/image_planes.h"
 #include "exr/validation.h"
 #include "exr/writers.h"
@@ -58,61 +57,6 @@ void add_channels(std::vector<NamedChannel> channels, const std::string& file, C
     std::erase_if(composed.channels, [&](const NamedChannel& other) { return other.name == channel.name; });
     composed.channels.push_back(std::move(channel));
   }
-}
-
-/// The names in a file's name, in lower case: "scene_WorldNormal-0001" has "scene", "world", "normal", "worldnormal".
-std::vector<std::string> words_in(const std::string& stem) {
-  std::vector<std::string> words;
-  std::string word, joined;
-  bool was_lower = false;
-  const auto end_word = [&] {
-    if (!word.empty()) words.push_back(lower(word));
-    word.clear();
-  };
-  const auto end_piece = [&] {
-    end_word();
-    if (!joined.empty()) words.push_back(lower(joined));
-    joined.clear();
-  };
-  for (const char c : stem) {
-    const bool is_upper = c >= 'A' && c <= 'Z', is_letter = is_upper || (c >= 'a' && c <= 'z');
-    if (!is_letter) {
-      end_piece();
-    } else {
-      if (is_upper && was_lower) end_word();
-      word += c, joined += c;
-    }
-    was_lower = is_letter && !is_upper;
-  }
-  end_piece();
-  return words;
-}
-
-/// Words of planes in file names besides those that channels are called by.
-std::string plane_of_word(const std::string& word) {
-  static const std::vector<std::pair<const char*, const char*>> more = {
-      {"colour", "color"}, {"rough", "roughness"}, {"zbuffer", "depth"}};
-  for (const auto& [name, plane] : more)
-    if (word == name) return plane;
-  constexpr size_t shortest = 2;  // "n", "p" and "c" end many names
-  if (word.size() < shortest) return "";
-  for (const channel_names::Spelling& spelling : channel_names::spellings())
-    if (spelling.layer == word) return spelling.plane;
-  return "";
-}
-
-bool is_named_for_disparities(const fs::path& file) {
-  const std::vector<std::string> words = words_in(file.stem().string());
-  return std::any_of(words.begin(), words.end(),
-                     [](const std::string& word) { return word == "disp" || word == "disparity"; });
-}
-
-/// States inverse depth for a file whose name says so.
-void take_name_of_depth(const fs::path& file, ReadOptions& options, std::vector<std::string>& notes) {
-  if (options.depth != DepthConvention::automatic || !is_named_for_disparities(file)) return;
-  options.depth = DepthConvention::inverse;
-  notes.push_back(fmt::format("depth: {} is taken as inverse, since its name speaks of disparities; {} says otherwise",
-                              file.filename().string(), option("depth", "z")));
 }
 
 /// The number of the frame that a file's name ends in, put into the pattern of another plane's files.
@@ -181,19 +125,6 @@ void take_declared(const std::string& plane, const FrameFile& file, ReadOptions&
   }
 }
 
-/// The same of a file's name: WorldNormal, normal_world.
-void take_declared(const fs::path& file, ReadOptions& options) {
-  if (options.normals.space != NormalSpace::automatic) return;
-  std::vector<std::string> words = words_in(file.stem().string());
-  const size_t single = words.size();
-  for (size_t i = 0; i + 1 < single; ++i) words.push_back(words[i] + words[i + 1]);
-  for (const channel_names::Spelling& spelling : channel_names::spellings()) {
-    if (spelling.plane != "normal" || !contains(words, spelling.layer)) continue;
-    if (spelling.said == DeclaredConvention::world_space) options.normals.space = NormalSpace::world;
-    if (spelling.said == DeclaredConvention::view_space) options.normals.space = NormalSpace::view;
-  }
-}
-
 /// The plane of an EXR that holds it under any name, or nothing else: red, green and blue, or the only channel.
 ImageValues plane_of_exr(const std::string& plane, const fs::path& path, long long most_pixels,
                          ReadOptions& frame_options) {
@@ -232,7 +163,7 @@ ImageValues only_image(const std::string& plane, const fs::path& file, const Rea
 }
 
 void add_stated_plane_file(const std::string& plane, const fs::path& file, ReadOptions& options, Composed& composed) {
-  if (plane == "normal") take_declared(file, options);
+  if (plane == "normal") take_space_in_name(file, options);
   ImageValues image = is_image_file(file) ? only_image(plane, file, options)
                       : is_exr(file)
                           ? plane_of_exr(plane, file, options.most_pixels, options)
@@ -369,13 +300,6 @@ Imf::Header header_of_images(const fs::path& path, const ReadOptions& options, c
 }
 
 }  // namespace
-
-std::string plane_in_file_name(const fs::path& file) {
-  const std::vector<std::string> words = words_in(file.stem().string());
-  for (auto word = words.rbegin(); word != words.rend(); ++word)
-    if (const std::string plane = plane_of_word(*word); !plane.empty()) return plane;
-  return "";
-}
 
 std::unique_ptr<ExrInput> open_input(const fs::path& path, ReadOptions& options, std::vector<std::string>& notes) {
   if (std::error_code unknown; fs::is_directory(path, unknown))

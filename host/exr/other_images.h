@@ -23,7 +23,4 @@ namespace gloam {
 std::unique_ptr<ExrInput> open_input(const std::filesystem::path& path, ReadOptions& options,
                                      std::vector<std::string>& notes);
 
-/// The plane that a file's name speaks of: "normal" for "scene_normals_0001.png"; empty if it speaks of none.
-std::string plane_in_file_name(const std::filesystem::path& file);
-
 }  // namespace gloam
