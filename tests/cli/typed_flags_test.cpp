@@ -13,14 +13,16 @@ namespace {
 
 /// Flags that take names and files: what is wrong with them a frame, a scene, a device or the registry says.
 const std::set<std::string> flags_of_any_text = {
-    "--adaptive", "--against",     "--anaglyph",   "--camera",   "--camera-path",     "--command",     "--composite",
-    "--device",   "--differences", "--display",    "--effects",  "--elsewhere",       "--environment", "--explain",
-    "--falloff",  "--filter",      "--frame",      "--from",     "--history",         "--into",        "--kernel",
-    "--items",    "--json",        "--markdown",   "--only",     "--output",          "--outputs",     "--paper",
-    "--picture",  "--pictures",    "--plane",      "--planes",   "--preset",          "--presets",     "--scan-line",
-    "--scene",    "--scenes",      "--sequence",   "--set",      "--sheet",           "--shot",        "--side-by-side",
-    "--sky",      "--sweep",       "--techniques", "--truth",    "--variants",        "--view",        "--views",
-    "--what",     "--with",        "--rows",       "--baseline", "--google-benchmark"};
+    "--adaptive",    "--against",     "--anaglyph",    "--camera",    "--camera-path", "--command",
+    "--composite",   "--device",      "--differences", "--display",   "--effects",     "--elsewhere",
+    "--environment", "--explain",     "--falloff",     "--filter",    "--frame",       "--from",
+    "--history",     "--into",        "--kernel",      "--items",     "--json",        "--markdown",
+    "--only",        "--output",      "--outputs",     "--paper",     "--picture",     "--pictures",
+    "--plane",       "--planes",      "--preset",      "--presets",   "--scan-line",   "--scene",
+    "--scenes",      "--sequence",    "--set",         "--sheet",     "--shot",        "--side-by-side",
+    "--sky",         "--sweep",       "--techniques",  "--truth",     "--variants",    "--view",
+    "--views",       "--what",        "--with",        "--rows",      "--baseline",    "--google-benchmark",
+    "--depth-file",  "--normal-file", "--color-file",  "--plane-file"};
 
 Arguments words_in(const std::string& text) {
   std::istringstream stream(text);
