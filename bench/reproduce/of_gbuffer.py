@@ -7,8 +7,8 @@ PAGE = "docs/gbuffer.md"
 no_figures(PAGE, "Conventions inside", 2, why="what is read as what")
 
 
-def stored(depth, camera):
-    """Depth as files may hold it: the values, what the reader states, and whether lengths are known; else a factor is free."""
+def stored_depths(depth, camera):
+    """A depth as files may hold it, by name: the values, what the reader states, and whether lengths are known; else a factor is free."""
     import numpy
     height, width = depth.shape
     x, y = (numpy.arange(width) + 0.5 - camera.cx) / camera.fx, (numpy.arange(height) + 0.5 - camera.cy) / camera.fy
@@ -17,11 +17,11 @@ def stored(depth, camera):
     z = numpy.where(surface, depth, 1)
     near, far, black, white = 0.1, 2 * z.max(), 1.2 * z.max(), 0.5 * z[surface].min()
     ndc = numpy.where(surface, far / (far - near) * (1 - near / z), 1)
-    return [(depth, {}, True), (numpy.where(surface, numpy.round(1000 * z), 0), {"depth_scale": 0.001}, True), (depth * secant, {}, True),
-            (numpy.where(surface, 100 / z, 0), {}, False), (numpy.where(surface, near / z, 0), {}, False),
-            (ndc, {"near": near, "far": far}, True), (ndc, {}, True),
-            (numpy.where(surface, (black - z) / (black - white), 0), {}, False),
-            (numpy.where(surface, (z - white) / (black - white), 1), {}, False)]
+    return {"z": (depth, {}, True), "millimetres": (numpy.where(surface, numpy.round(1000 * z), 0), {"depth_scale": 0.001}, True),
+            "ray": (depth * secant, {}, True), "disparity": (numpy.where(surface, 100 / z, 0), {}, False),
+            "reversed": (numpy.where(surface, near / z, 0), {}, False), "ndc with near and far": (ndc, {"near": near, "far": far}, True),
+            "ndc": (ndc, {}, True), "white near": (numpy.where(surface, (black - z) / (black - white), 0), {}, False),
+            "black near": (numpy.where(surface, (z - white) / (black - white), 1), {}, False)}
 
 
 def of_frame(lab, frame, fov=None):
@@ -30,7 +30,7 @@ def of_frame(lab, frame, fov=None):
     import numpy
     own = float(numpy.degrees(2 * numpy.arctan(frame.width / 2 / frame.camera.fx)))
     truth, rows = frame["depth"], []
-    for values, stated, is_length in stored(truth, frame.camera):
+    for values, stated, is_length in stored_depths(truth, frame.camera).values():
         file = lab.folder_for("meanings") / "depth.npy"
         numpy.save(file, values.astype(numpy.float32))
         with warnings.catch_warnings():

@@ -82,4 +82,12 @@ std::string frames_in_words(const std::vector<int>& frames, size_t most_ranges) 
   return words;
 }
 
+std::optional<int> last_number(const std::string& text) {
+  const size_t last = text.find_last_of("0123456789");
+  if (last == std::string::npos) return {};
+  const size_t first = text.find_last_not_of("0123456789", last) + 1;
+  if (last - first >= 9) return {};
+  return std::stoi(text.substr(first, last + 1 - first));
+}
+
 }  // namespace gloam

@@ -31,8 +31,7 @@ bool all_background(const Channel& depth) {
 
 /// Values that are no lengths.
 bool is_mapped(DepthConvention convention) {
-  return convention == DepthConvention::ndc || convention == DepthConvention::reversed ||
-         convention == DepthConvention::inverse;
+  return is_window_depth(convention) || convention == DepthConvention::inverse;
 }
 
 /// What positions tell of a depth; `unknown` where they tell nothing, or are not asked.

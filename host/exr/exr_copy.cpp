@@ -23,6 +23,7 @@
 #include "exr/channel_names.h"
 #include "exr/errors.h"
 #include "exr/headers.h"
+#include "exr/opened.h"
 #include "exr/stream.h"
 #include "exr/validation.h"
 #include "exr/write.h"
@@ -39,22 +40,11 @@ namespace {
 /// The name of the only part of a file that names none: compositors take it for the picture itself.
 constexpr const char* name_of_only_part = "rgba";
 
-struct Original {
-  std::unique_ptr<ExrInput> stream;
-  std::unique_ptr<Imf::MultiPartInputFile> file;
-};
-
-Original open_original(const std::filesystem::path& path) {
+OpenedExr open_original(const std::filesystem::path& path) {
   if (is_image_file(path))
     throw Error("{}: is no EXR, and a copy with results as parts is made of EXR alone; {} writes the result by itself",
                 path.string(), option("output", "OUT.exr"));
-  Original original;
-  original.stream = std::make_unique<ExrInput>(path);
-  guarded(path, [&] {
-    check_headers(path, *original.stream, max_pixels);
-    original.file = std::make_unique<Imf::MultiPartInputFile>(*original.stream);
-  });
-  return original;
+  return guarded(path, [&] { return open_parts(std::make_unique<ExrInput>(path), path, max_pixels); });
 }
 
 /// With the attributes that a part of several must have.
@@ -182,8 +172,8 @@ void note_planes_there_twice(const Headers& original, const std::vector<int>& ke
 
 std::vector<std::string> write(NewFile& new_file, const std::string& name, const std::filesystem::path& path,
                                const std::vector<AddedPlanes>& planes) {
-  const Original original = open_original(path);
-  const Headers headers(*original.file);
+  const OpenedExr original = open_original(path);
+  const Headers headers(*original.parts);
   const std::vector<NewPart> added = new_parts(headers, planes);
   std::vector<std::string> notes;
   const std::vector<int> kept = parts_kept(headers, added, notes);
@@ -194,7 +184,7 @@ std::vector<std::string> write(NewFile& new_file, const std::string& name, const
   ExrOutput stream(new_file.descriptor(), name);
   {
     Imf::MultiPartOutputFile file(stream, all.data(), int(all.size()));
-    for (size_t i = 0; i < kept.size(); ++i) copy_blocks(*original.file, kept[i], file, int(i));
+    for (size_t i = 0; i < kept.size(); ++i) copy_blocks(*original.parts, kept[i], file, int(i));
     for (size_t i = 0; i < added.size(); ++i) write_part(added[i], file, int(kept.size() + i));
   }
   stream.finish();
@@ -216,8 +206,8 @@ void write_frame_like(const std::filesystem::path& path, const std::filesystem::
                       const Frame& frame, const WriteOptions& options) {
   if (is_image_file(original)) return write_frame(path, frame, options);  // which has no header to be like
   check(options);
-  const Original from = open_original(original);
-  const Imf::Header& like = from.file->header(part);
+  const OpenedExr from = open_original(original);
+  const Imf::Header& like = from.parts->header(part);
   write_atomically(path, [&](NewFile& file) { write_exr(file, path.string(), frame, options, &like); });
 }
 

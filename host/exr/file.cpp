@@ -1,11 +1,12 @@
 #include "exr/file.h"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
+#include <utility>
 
 #include "exr/depth_of_positions.h"
 #include "exr/errors.h"
+#include "exr/opened.h"
 #include "exr/other_images.h"
 #include "exr/validation.h"
 #include "exr/view_planes.h"
@@ -21,23 +22,17 @@ namespace fs = std::filesystem;
 /// Least width over height, and height over width, of a pixel: beyond, pixelAspectRatio is ignored as meaningless.
 constexpr float narrowest_pixel = 0.01f;
 
-void check_magic(ExrInput& stream, const fs::path& path) {
-  char magic[4] = {};
-  if (stream.size() >= 4) stream.read(magic, 4);
-  stream.seekg(0);
-  if (std::memcmp(magic, "\x76\x2f\x31\x01", 4) != 0)
-    throw Error("{}: is not an EXR file, nor ends as an image of another format that is read: {}", path.string(),
-                image_formats());
-}
-
 void open_parts(ExrFile& file) {
-  file.stream = open_input(file.path, file.options, file.notes);
-  check_magic(*file.stream, file.path);
+  std::unique_ptr<ExrInput> stream = open_input(file.path, file.options, file.notes);
+  if (!stream->has_magic())
+    throw Error("{}: is not an EXR file, nor ends as an image of another format that is read: {}", file.path.string(),
+                image_formats());
   use_all_threads();
-  guarded(file.path, [&] {
-    file.end_of_headers = check_headers(file.path, *file.stream, file.options.most_pixels);
-    file.parts = std::make_unique<Imf::MultiPartInputFile>(*file.stream);
-  });
+  OpenedExr opened =
+      guarded(file.path, [&] { return open_parts(std::move(stream), file.path, file.options.most_pixels); });
+  file.end_of_headers = opened.end_of_headers;
+  file.stream = std::move(opened.stream);
+  file.parts = std::move(opened.parts);
   check_parts(file.path, *file.parts, file.options.most_pixels);
 }
 

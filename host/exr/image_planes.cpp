@@ -37,12 +37,8 @@ bool is_equal(const Channel& a, const Channel& b) {
 /// Planes that are light, whose whole numbers are those of pictures.
 bool is_light(const std::string& plane) { return plane == "color" || plane == "albedo" || plane == "ambient"; }
 
-bool is_share_of_range(DepthConvention depth) {
-  return depth == DepthConvention::ndc || depth == DepthConvention::reversed;
-}
-
-/// How much neighbours differ on average: of the byte with the highest digits least.
-double mean_difference(const Channel& channel) {
+/// How much neighbours differ in all.
+double variation(const Channel& channel) {
   double sum = 0;
   const int width = channel.layout().width;
   for (int y = 0; y < channel.layout().height; ++y) {
@@ -52,15 +48,15 @@ double mean_difference(const Channel& channel) {
   return sum;
 }
 
-/// The lowest byte wraps from pixel to pixel as noise does, and the highest hardly changes; no picture has such components.
-void check_packed(const ImageValues& image, bool is_stated, const ImageWords& file) {
+/// Whether red is the lowest byte: it wraps from pixel to pixel as noise does, and the highest hardly changes. Throws Error for a picture,
+/// which has no such components.
+bool has_red_lowest(const ImageValues& image, const ImageWords& file) {
   constexpr double least_ratio = 4;
-  const double red = mean_difference(image.channels[0]), blue = mean_difference(image.channels[2]);
-  if (is_stated || std::max(red, blue) >= least_ratio * std::min(red, blue)) return;
+  const double red = variation(image.channels[0]), blue = variation(image.channels[2]);
+  if (std::max(red, blue) >= least_ratio * std::min(red, blue)) return red >= blue;
   throw Error(
       "{}: has three components that vary alike, as a picture's do, and depth of 24 bits has one byte that hardly "
-      "varies; "
-      "name a file of depth, or say {} or high-first",
+      "varies; name a file of depth, or say {} or high-first",
       file.path, option("depth-bytes", "low-first"));
 }
 
@@ -69,9 +65,7 @@ Channel packed_depth(const ImageValues& image, const ImageWords& file, const Rea
                      std::vector<std::string>& notes) {
   const Channel &red = image.channels[0], &green = image.channels[1], &blue = image.channels[2];
   const bool is_stated = options.depth_bytes != DepthBytes::automatic;
-  check_packed(image, is_stated, file);
-  const bool is_red_lowest =
-      is_stated ? options.depth_bytes == DepthBytes::low_first : mean_difference(red) >= mean_difference(blue);
+  const bool is_red_lowest = is_stated ? options.depth_bytes == DepthBytes::low_first : has_red_lowest(image, file);
   const Channel &low = is_red_lowest ? red : blue, &high = is_red_lowest ? blue : red;
   constexpr double most = (1 << 24) - 1;
   Channel depth(image.layout(), 0.0f);
@@ -106,16 +100,10 @@ std::pair<float, float> extent(const Channel& channel) {
 void mark_largest(Channel& depth, double largest, const ImageWords& file, const ReadOptions& options,
                   std::vector<std::string>& notes) {
   if (options.background || options.depth == DepthConvention::inverse || options.depth_scale.value_or(1) < 0) return;
-  long long count = 0;
-  const int width = depth.layout().width;
-  for (int y = 0; y < depth.layout().height; ++y)
-    count += std::count(depth.row(y), depth.row(y) + width, float(largest));
-  const long long pixels = (long long)width * depth.layout().height;
-  if (!is_a_mark(count, pixels)) return;
-  for_each_value(depth, [largest](float value) { return value == float(largest) ? infinity : value; });
-  notes.push_back(fmt::format(
-      "depth: {:.1f} % of the pixels of {} are {:g}, the largest value, and taken as background; {} says otherwise",
-      100 * double(count) / double(pixels), file.name, largest, option("background")));
+  if (const double share = mark_share(depth, float(largest)); share > 0)
+    notes.push_back(fmt::format(
+        "depth: {:.1f} % of the pixels of {} are {:g}, the largest value, and taken as background; {} says otherwise",
+        100 * share, file.name, largest, option("background")));
 }
 
 Channel depth_of(ImageValues image, const ImageWords& file, const ReadOptions& options,
@@ -128,13 +116,13 @@ Channel depth_of(ImageValues image, const ImageWords& file, const ReadOptions& o
                 channels.size());
   if (!is_grey) {
     Channel packed = packed_depth(image, file, options, notes);
-    if (!is_share_of_range(options.depth)) mark_largest(packed, 1, file, options, notes);
+    if (!is_window_depth(options.depth)) mark_largest(packed, 1, file, options, notes);
     return packed;
   }
   Channel depth = std::move(channels.front());
   if (options.depth_bytes != DepthBytes::automatic) notes.push_back(note_on_bytes());
   if (image.largest == 0) return depth;
-  if (is_share_of_range(options.depth)) {
+  if (is_window_depth(options.depth)) {
     divide(depth, image.largest);
     return depth;
   }
@@ -209,7 +197,7 @@ std::vector<NamedChannel> channels_of_plane(const std::string& plane, ImageValue
     throw Error("{}: has {} component{}, and {} has {}", file.path, there, there == 1 ? "" : "s", plane, wanted);
   for (size_t c = 0; c < wanted; ++c)
     named.push_back({kind.channels[c], image.channels[is_light_of_grey ? 0 : c].clone()});
-  if (plane == "color" && (there == 2 || there == 4))
+  if (plane == "color" && (there == 2 || there == 4) && !options.plane_files.contains("alpha"))
     named.push_back({plane_kind("alpha").channels.front(), std::move(image.channels.back())});
   return named;
 }

@@ -9,6 +9,7 @@
 #include "exr/errors.h"
 #include "gloam/display_json.h"
 #include "gloam/error.h"
+#include "gloam/frame_numbers.h"
 #include "gloam/light_field.h"
 
 namespace gloam {
@@ -33,15 +34,6 @@ std::map<std::string, Camera> cameras_of_display(const fs::path& json, const Win
   const LightFieldDisplay of_file = read_display(json);
   const auto of_modules = named(json, [&] { return module_cameras(of_file, display); });
   return {of_modules.begin(), of_modules.end()};
-}
-
-/// The number of a frame: the last digits of a text. None without digits, or with more than a number has.
-std::optional<int> last_number(const std::string& text) {
-  const size_t last = text.find_last_of("0123456789");
-  if (last == std::string::npos) return {};
-  const size_t first = text.find_last_not_of("0123456789", last) + 1;
-  if (last - first >= 9) return {};
-  return std::stoi(text.substr(first, last + 1 - first));
 }
 
 }  // namespace

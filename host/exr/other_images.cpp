@@ -22,9 +22,11 @@
 #include "exr/errors.h"
 #include "exr/image_names.h"
 #include "exr/image_planes.h"
+#include "exr/opened.h"
 #include "exr/validation.h"
 #include "exr/writers.h"
 #include "gloam/error.h"
+#include "gloam/frame_numbers.h"
 #include "gloam/frame_pattern.h"
 #include "gloam/option.h"
 #include "gloam/planes.h"
@@ -62,29 +64,17 @@ void add_channels(std::vector<NamedChannel> channels, const std::string& file, C
 /// The number of the frame that a file's name ends in, put into the pattern of another plane's files.
 fs::path with_number_of(const fs::path& frame, const fs::path& file) {
   if (!FramePattern::is_pattern(file.string())) return file;
-  const std::string stem = frame.stem().string();
-  const size_t last = stem.find_last_of("0123456789");
-  if (last == std::string::npos)
+  const std::optional<int> number = last_number(frame.stem().string());
+  if (!number)
     throw Error("{}: has a place for a frame's number, and {} has no number", file.string(), frame.filename().string());
-  size_t first = last;
-  constexpr size_t longest = 9;
-  while (first > 0 && std::isdigit((unsigned char)stem[first - 1]) && last - first + 1 < longest) --first;
-  return FramePattern(file.string(), "").path_of(std::stoi(stem.substr(first, last - first + 1)));
-}
-
-bool is_exr(const fs::path& path) {
-  ExrInput stream(path);
-  char magic[4] = {};
-  if (stream.size() >= 4) stream.read(magic, 4);
-  return std::memcmp(magic, "\x76\x2f\x31\x01", 4) == 0;
+  return FramePattern(file.string(), "").path_of(*number);
 }
 
 /// All channels of an EXR of one part, as they are.
 void add_exr(const fs::path& path, const ReadOptions& options, Imf::Header& header, Composed& composed) {
-  ExrInput stream(path);
   guarded(path, [&] {
-    check_headers(path, stream, options.most_pixels);
-    Imf::MultiPartInputFile file(stream);
+    const OpenedExr opened = open_parts(std::make_unique<ExrInput>(path), path, options.most_pixels);
+    Imf::MultiPartInputFile& file = *opened.parts;
     check_parts(path, file, options.most_pixels);
     if (file.parts() != 1)
       throw Error("{}: has {} parts, and planes of other files are added to a file of one part alone", path.string(),
@@ -94,7 +84,7 @@ void add_exr(const fs::path& path, const ReadOptions& options, Imf::Header& head
       throw Error("{}: has the views {}, and planes of other files are added to a file of one view alone",
                   path.string(), enumerate(Imf::multiView(header)));
     const Imath::Box2i box = header.dataWindow();
-    check_plausible(path, header, stream.size());
+    check_plausible(path, header, opened.stream->size());
     Imf::FrameBuffer buffer;
     std::vector<NamedChannel> channels;
     const int width = box.max.x - box.min.x + 1, height = box.max.y - box.min.y + 1;
@@ -165,7 +155,7 @@ ImageValues only_image(const std::string& plane, const fs::path& file, const Rea
 void add_stated_plane_file(const std::string& plane, const fs::path& file, ReadOptions& options, Composed& composed) {
   if (plane == "normal") take_space_in_name(file, options);
   ImageValues image = is_image_file(file) ? only_image(plane, file, options)
-                      : is_exr(file)
+                      : ExrInput(file).has_magic()
                           ? plane_of_exr(plane, file, options.most_pixels, options)
                           : throw Error("{}: is no image that is read; EXR, {} are", file.string(), image_formats());
   add_channels(channels_of_plane(plane, std::move(image), words_for(file), options, composed.notes), file.string(),
@@ -273,22 +263,16 @@ int file_in_memory(Imf::Header header, const Composed& composed, const fs::path&
   return descriptor;
 }
 
-}  // namespace
-
-namespace {
-
 bool is_same(const fs::path& a, const fs::path& b) { return a.lexically_normal() == b.lexically_normal(); }
 
 /// The header of a frame whose planes all come from files: that of the depth, if it is an EXR of one part, with its camera.
 Imf::Header header_of_images(const fs::path& path, const ReadOptions& options, const Composed& composed) {
   Imf::Header header(composed.width, composed.height);
   if (is_image_file(path)) return header;
-  ExrInput stream(path);
   guarded(path, [&] {
-    check_headers(path, stream, options.most_pixels);
-    const Imf::MultiPartInputFile file(stream);
+    const OpenedExr opened = open_parts(std::make_unique<ExrInput>(path), path, options.most_pixels);
     const Imath::Box2i data = header.dataWindow();
-    if (file.parts() == 1) header = file.header(0);
+    if (opened.parts->parts() == 1) header = opened.parts->header(0);
     header.dataWindow() = data;
     const Imath::Box2i display = header.displayWindow();
     if (display.max - display.min != data.max - data.min)
@@ -330,9 +314,8 @@ std::unique_ptr<ExrInput> open_input(const fs::path& path, ReadOptions& options,
     add_exr(path, options, header, composed);
   else if (!has_own_plane)
     add_image_alone(path, options, composed);
-  for (const char* const first : {"color", ""})  // whose alpha gives way to alpha in a file of its own
-    for (const auto& [plane, file] : options.plane_files)
-      if ((plane == "color") == (*first != 0)) add_plane_file(plane, file, contains(stated, plane), options, composed);
+  for (const auto& [plane, file] : options.plane_files)
+    add_plane_file(plane, file, contains(stated, plane), options, composed);
   if (!is_exr_frame) header = header_of_images(path, options, composed);
   return guarded(path, [&] { return std::make_unique<ExrInput>(path, file_in_memory(header, composed, path)); });
 }

@@ -65,6 +65,12 @@ void ExrInput::read_at(uint64_t position, char* bytes, size_t count) const {
   }
 }
 
+bool ExrInput::has_magic() const {
+  char magic[4] = {};
+  if (size_ >= sizeof magic) read_at(0, magic, sizeof magic);
+  return std::memcmp(magic, "\x76\x2f\x31\x01", sizeof magic) == 0;
+}
+
 bool ExrInput::read(char* bytes, int count) {
   const size_t wanted = size_t(std::max(count, 0));
   if (position_ > size_ || wanted > size_ - position_) throw IEX_NAMESPACE::InputExc("unexpected end of file");

@@ -26,6 +26,8 @@ class ExrInput : public Imf::IStream {
   uint64_t tellg() override { return position_; }
   void seekg(uint64_t position) override { position_ = position; }
   uint64_t size() const { return size_; }
+  /// Whether the file begins as an EXR does. Leaves the stream where it is.
+  bool has_magic() const;
   /// Reads bytes from any place, and leaves the stream where it is. Throws as `read`.
   void read_at(uint64_t position, char* bytes, size_t count) const;
 

@@ -190,7 +190,9 @@ void take_writer(const fs::path& depth, ReadOptions& options, std::vector<std::s
     options.depth_scale = writer->scale;
     said.push_back(option("depth-scale", fmt::format("{:g}", *writer->scale)));
   }
-  const bool has_camera = options.fov_degrees || !options.camera_file.empty() || find_camera_file(depth);
+  const bool gives_camera = writer->fov || !writer->calibration.empty();
+  const bool has_camera =
+      gives_camera && (options.fov_degrees || !options.camera_file.empty() || find_camera_file(depth));
   if (!has_camera && writer->fov) {
     options.fov_degrees = writer->fov;
     said.push_back(option("fov", fmt::format("{:g}", *writer->fov)));

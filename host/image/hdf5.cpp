@@ -19,13 +19,14 @@ namespace {
 /// What is called of libhdf5. It is loaded when a file of its is read: it brings 30 other libraries, and a third of the time that a command
 /// takes to start.
 struct Hdf5 {
-#define GLOAM_HDF5_FUNCTIONS(X)                                                                                        \
-  X(H5Fopen)                                                                                                           \
-  X(H5Fclose)                                                                                                          \
-  X(H5Eset_auto2)                                                                                                      \
-  X(H5Ovisit)                                                                                                          \
-  X(H5Dopen2) X(H5Dclose) X(H5Dget_type) X(H5Dget_space) X(H5Dread) X(H5Dget_storage_size) X(H5Tclose) X(H5Tget_class) \
-      X(H5Tget_size) X(H5Tget_sign) X(H5Tget_order) X(H5Tget_precision) X(H5Sclose) X(H5Sget_simple_extent_ndims)      \
+#define GLOAM_HDF5_FUNCTIONS(X)                                                                                   \
+  X(H5Fopen)                                                                                                      \
+  X(H5Fclose)                                                                                                     \
+  X(H5Eset_auto2)                                                                                                 \
+  X(H5Ovisit)                                                                                                     \
+  X(H5Dopen2)                                                                                                     \
+  X(H5Dclose) X(H5Dget_type) X(H5Dget_space) X(H5Dread) X(H5Dget_storage_size) X(H5Tclose) X(H5Tget_class)        \
+      X(H5Tget_size) X(H5Tget_sign) X(H5Tget_order) X(H5Tget_precision) X(H5Sclose) X(H5Sget_simple_extent_ndims) \
           X(H5Sget_simple_extent_dims)
 #define GLOAM_HDF5_POINTER(name) decltype(&::name) name##_ = nullptr;
   GLOAM_HDF5_FUNCTIONS(GLOAM_HDF5_POINTER)

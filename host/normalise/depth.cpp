@@ -82,25 +82,23 @@ void mark_missing(Channel& depth, const Channel& alpha) {
 
 /// Nothing lies on the near plane itself: a share of pixels there was never drawn, as with a sky that is left at the value of the near plane.
 void mark_near_plane(Channel& depth, float near, std::vector<std::string>& assumed) {
-  const int width = depth.layout().width;
-  long long count = 0;
-#pragma omp parallel for reduction(+ : count)
-  for (int y = 0; y < depth.layout().height; ++y) count += std::count(depth.row(y), depth.row(y) + width, near);
-  const long long pixels = (long long)width * depth.layout().height;
-  if (!is_a_mark(count, pixels)) return;
-  for_each_row(depth.layout(), [&](int y) { std::replace(depth.row(y), depth.row(y) + width, near, infinity); });
-  assumed.push_back(fmt::format(
-      "depth: {:.1f} % of the pixels are {:g}, exactly on the near plane, and taken as background; {} says otherwise",
-      100 * double(count) / double(pixels), near, option("background")));
+  if (const double share = mark_share(depth, near); share > 0)
+    assumed.push_back(fmt::format(
+        "depth: {:.1f} % of the pixels are {:g}, exactly on the near plane, and taken as background; {} says otherwise",
+        100 * share, near, option("background")));
 }
 
 /// What is stored, times the scale, plus the offset.
+double scaled(float stored, const StatedDepth& stated) {
+  return stated.scale.value_or(1) * double(stored) + stated.offset.value_or(0);
+}
+
+/// Of all pixels.
 void apply_scale(Channel& depth, const StatedDepth& stated) {
   if (!stated.scale && !stated.offset) return;
-  const double scale = stated.scale.value_or(1), offset = stated.offset.value_or(0);
   for_each_row(depth.layout(), [&](int y) {
     float* row = depth.row(y);
-    for (int x = 0; x < depth.layout().width; ++x) row[x] = float(scale * double(row[x]) + offset);
+    for (int x = 0; x < depth.layout().width; ++x) row[x] = float(scaled(row[x], stated));
   });
 }
 
@@ -108,33 +106,27 @@ void apply_scale(Channel& depth, const StatedDepth& stated) {
 /// A share of zeros is background too: that is how a grey tells that there is nothing.
 void shift(Channel& depth, const StatedDepth& stated, std::vector<std::string>& assumed) {
   const Background background = background_of(stated.background, {});
-  long long zeros = 0;
-  for (int y = 0; y < depth.layout().height; ++y)
-    zeros += std::count(depth.row(y), depth.row(y) + depth.layout().width, 0.0f);
-  const long long pixels = (long long)depth.layout().width * depth.layout().height;
-  const bool is_zero_background = !stated.background && is_a_mark(zeros, pixels);
-  if (is_zero_background)
+  const double zeros = stated.background ? 0 : mark_share(depth, 0);
+  if (zeros > 0)
     assumed.push_back(
         fmt::format("depth: {:.1f} % of the pixels are stored as 0, and taken as background; {} says otherwise",
-                    100 * double(zeros) / double(pixels), option("background")));
+                    100 * zeros, option("background")));
   for_each_row(depth.layout(), [&](int y) {
     float* row = depth.row(y);
     for (int x = 0; x < depth.layout().width; ++x) {
-      const bool is_nothing =
-          !(std::abs(row[x]) < background.from) || row[x] == background.value || (is_zero_background && row[x] == 0);
-      row[x] = is_nothing ? infinity : float(stated.scale.value_or(1) * double(row[x]) + stated.offset.value_or(0));
+      const bool is_nothing = !(std::abs(row[x]) < background.from) || row[x] == background.value;
+      row[x] = is_nothing ? infinity : float(scaled(row[x], stated));
     }
   });
 }
 
 /// As above, of lengths whose background is +inf, or of their reciprocals, which become lengths.
-void to_lengths(Channel& depth, bool is_done, const StatedDepth& stated) {
-  const double scale = is_done ? 1 : stated.scale.value_or(1), offset = is_done ? 0 : stated.offset.value_or(0);
+void to_lengths(Channel& depth, const StatedDepth& stated) {
   const bool is_inverse = stated.convention == DepthConvention::inverse;
   for_each_row(depth.layout(), [&](int y) {
     float* row = depth.row(y);
     for (int x = 0; x < depth.layout().width; ++x) {
-      const double value = scale * double(row[x]) + offset, length = is_inverse ? 1 / value : value;
+      const double value = scaled(row[x], stated), length = is_inverse ? 1 / value : value;
       row[x] = row[x] < infinity && length >= double(nearest_depth) ? float(length) : infinity;
     }
   });
@@ -199,8 +191,7 @@ std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& wi
         option("depth"));
   if (stated.scale && !(*stated.scale != 0))
     throw UsageError("{}: every depth would be the same; any number but 0 is allowed", option("depth-scale", "0"));
-  if (stated.convention == DepthConvention::ndc || stated.convention == DepthConvention::reversed)
-    return window_to_depth(depth, alpha, camera, stated, assumed);
+  if (is_window_depth(stated.convention)) return window_to_depth(depth, alpha, camera, stated, assumed);
 
   const std::optional<double> far = stated.far ? stated.far : camera.far;
   const bool is_mapped = stated.scale || stated.offset || stated.convention == DepthConvention::inverse;
@@ -223,7 +214,9 @@ std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& wi
                                   option("near"), option("depth", "ndc"), option("depth", "reversed")));
   clean_depth(depth, found.sign, found.background);
   if (is_mapped) {
-    to_lengths(depth, is_shifted, stated);
+    StatedDepth left = stated;
+    if (is_shifted) left.scale = left.offset = std::nullopt;  // done
+    to_lengths(depth, left);
     clean_depth(depth, 1, background_of({}, far));
   }
   if (stated.convention == DepthConvention::inverse) {

@@ -7,6 +7,7 @@
 #include "gloam/error.h"
 #include "gloam/option.h"
 #include "gloam/projection.h"
+#include "normalise/each_row.h"
 
 namespace gloam {
 namespace {
@@ -62,6 +63,17 @@ std::string note_on_planar_depth(bool is_in_unit_interval) {
 
 bool is_a_mark(long long pixels, long long of) {
   return pixels >= fewest_marked && double(pixels) >= least_share_marked * double(of);
+}
+
+double mark_share(Channel& depth, float value) {
+  const int width = depth.layout().width;
+  long long count = 0;
+#pragma omp parallel for reduction(+ : count)
+  for (int y = 0; y < depth.layout().height; ++y) count += std::count(depth.row(y), depth.row(y) + width, value);
+  const long long pixels = (long long)width * depth.layout().height;
+  if (!is_a_mark(count, pixels)) return 0;
+  for_each_row(depth.layout(), [&](int y) { std::replace(depth.row(y), depth.row(y) + width, value, infinity); });
+  return double(count) / double(pixels);
 }
 
 StoredDepth look_at_depth(const DepthRows& depth, const Background& background, bool is_stated,

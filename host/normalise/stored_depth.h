@@ -39,6 +39,9 @@ std::string note_on_planar_depth(bool is_in_unit_interval);
 /// So many pixels, and such a share of them, hold one value that no surface has by chance.
 bool is_a_mark(long long pixels, long long of);
 
+/// Sets the pixels of a value to +inf, if it is such a mark. Returns their share of all, or 0.
+double mark_share(Channel& depth, float value);
+
 /// A sentence on the depth of an orthographic camera whose steps, as float or half, are long beside a pixel: surfaces become stairs. With
 /// distance, the pixels of such a camera do not grow as the steps do. Empty if they are not. `depth`: planar, infinite where there is no
 /// surface.

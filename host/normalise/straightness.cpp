@@ -161,36 +161,31 @@ std::optional<LinearGrey> linear_grey_of(const DepthRows& depth, const Backgroun
   constexpr double ends = 0.005, least_spread = 5, spare = 1e-4;
   const int length = length_for(depth);
   if (depth.width < length || depth.height < length) return {};
-  std::vector<Values> segments;
-  std::vector<char> is_column;
+  struct Piece {
+    Values values;
+    bool is_column;
+  };
+  std::vector<Piece> segments;
   std::vector<double> all;
   for (const Segment& segment : segments_of(depth.width, depth.height, length, most_of_grey)) {
     Values values;
     if (!take_values(depth, background, segment.x, segment.y, segment.walk, values)) continue;
-    segments.push_back(values);
-    is_column.push_back(segment.walk.step_y == 1);
+    segments.push_back({values, segment.walk.step_y == 1});
     all.push_back(values.front());
   }
   if ((long long)segments.size() < Straightness::fewest) return {};
   std::sort(all.begin(), all.end());
   const double low = all[size_t(ends * double(all.size()))], high = all[size_t((1 - ends) * double(all.size() - 1))];
   const auto is_between = [&](double value) { return value >= low && value <= high; };
-  const auto is_within = [&](const Values& values) {
-    return std::all_of(values.begin(), values.begin() + length, is_between);
-  };
-  size_t kept = 0;
-  for (size_t i = 0; i < segments.size(); ++i) {
-    if (!is_within(segments[i])) continue;
-    segments[kept] = segments[i];
-    is_column[kept++] = is_column[i];
-  }
-  segments.resize(kept);
+  std::erase_if(segments, [&](const Piece& piece) {
+    return !std::all_of(piece.values.begin(), piece.values.begin() + length, is_between);
+  });
   if (!(high > low)) return {};
   const std::vector<double> poles = poles_beside(low, high);
   std::vector<std::vector<double>> bends(segments.size());
 #pragma omp parallel for schedule(dynamic, 16)
   for (size_t i = 0; i < segments.size(); ++i)
-    for (const double pole : poles) bends[i].push_back(bend_for(segments[i], length, pole));
+    for (const double pole : poles) bends[i].push_back(bend_for(segments[i].values, length, pole));
   std::vector<long long> spoken(poles.size(), 0);
   std::vector<size_t> speaking;
   for (size_t i = 0; i < segments.size(); ++i) {
@@ -207,12 +202,12 @@ std::optional<LinearGrey> linear_grey_of(const DepthRows& depth, const Backgroun
       found.segments >= Straightness::fewest && double(found.segments) >= least_share * double(found.all);
   if (!is_clear) return {};
   long long in_columns = 0;
-  for (const size_t i : speaking) in_columns += bends[i][best] < largest_bend && is_column[i];
+  for (const size_t i : speaking) in_columns += bends[i][best] < largest_bend && segments[i].is_column;
   found.is_both_ways = std::min(in_columns, found.segments - in_columns) >= fewest_each_way;
   if (best == 0) return found;
   std::vector<Values> straight;
   for (const size_t i : speaking)
-    if (bends[i][best] < largest_bend) straight.push_back(segments[i]);
+    if (bends[i][best] < largest_bend) straight.push_back(segments[i].values);
   LinearGrey grey = found;
   grey.is_above = poles[best] > high;
   // between its neighbours on the same side

@@ -37,7 +37,7 @@ Straightness straightness_of(const DepthRows& depth, float sign, const Backgroun
 struct LinearGrey {
   double pole =
       0;  ///< the value at distance 0: the distance is proportional to how far a value is from there; infinite: 1 / distance is
-          ///< linear in the values
+      ///< linear in the values
   bool is_both_ways = false;        ///< rows and columns speak for it
   bool is_above = false;            ///< all values: larger ones are nearer
   bool is_zero = false;             ///< as good as: the values are proportional to the distance

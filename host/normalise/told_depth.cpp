@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
+#include "base/statistics.h"
 #include "gloam/error.h"
 #include "gloam/option.h"
 #include "normalise/straightness.h"
@@ -29,16 +31,14 @@ std::string pieces(long long segments, long long all) {
 std::string says_otherwise() { return option("depth", "z") + " says otherwise"; }
 
 /// Of some thousand pixels.
-float median_of_surfaces(const Channel& depth, const Background& background) {
+double median_of_surfaces(const Channel& depth, const Background& background) {
   const Layout& layout = depth.layout();
   const int apart = std::max(1, int(std::sqrt(double(layout.width) * layout.height / 4096)));
-  std::vector<float> values;
+  std::vector<double> values;
   for (int y = 0; y < layout.height; y += apart)
     for (int x = 0; x < layout.width; x += apart)
-      if (is_surface(depth.at(x, y), background)) values.push_back(depth.at(x, y));
-  if (values.empty()) return 0;
-  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2), values.end());
-  return values[values.size() / 2];
+      if (is_surface(depth.at(x, y), background)) values.push_back(double(depth.at(x, y)));
+  return values.empty() ? 0 : median(std::move(values));
 }
 
 StatedDepth read_as(const StatedDepth& stated, DepthConvention convention) {
@@ -71,7 +71,7 @@ StatedDepth linear_in_inverse(const Untold& untold, bool is_both_ways, const std
                               std::vector<std::string>& assumed) {
   const StatedDepth& stated = untold.stated;
   const bool is_window_depth = untold.found.is_in_unit_interval;
-  const bool is_reversed = median_of_surfaces(untold.depth, untold.found.background) < 0.5f;
+  const bool is_reversed = median_of_surfaces(untold.depth, untold.found.background) < 0.5;
   const bool is_near_known = stated.near || untold.camera.near, is_far_known = stated.far || untold.camera.far;
   if (is_window_depth && !is_reversed && !(is_near_known && is_far_known))
     return only_told(untold, "normalised device depth", why,

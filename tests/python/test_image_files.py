@@ -1,13 +1,19 @@
 """Frames in other formats than EXR, written by OpenCV, NumPy and h5py: the planes are those of the frame they were made of."""
 
 import os
+import pathlib
 import subprocess
+import sys
 
 import cv2
 import numpy
 import pytest
 
 import gloam
+
+sys.path.insert(0, str(pathlib.Path(os.environ["GLOAM_SOURCE_DIR"], "bench", "reproduce")))
+
+import of_gbuffer
 
 FAR = 200.0  # beyond all that the frame shows
 
@@ -166,22 +172,10 @@ def test_planes_in_files_of_their_own(planes, tmp_path, command):
     assert numpy.sqrt(numpy.mean((by_files - by_arrays) ** 2)) < 0.01
 
 
-def stored_depths(depth, camera):
-    """A depth as files may hold it: the values, what is stated, and whether lengths are known, so that no factor is free."""
-    height, width = depth.shape
-    x, y = (numpy.arange(width) + 0.5 - camera.cx) / camera.fx, (numpy.arange(height) + 0.5 - camera.cy) / camera.fy
-    secant = numpy.sqrt(1 + x[None] ** 2 + y[:, None] ** 2)
-    surface = numpy.isfinite(depth)
-    z = numpy.where(surface, depth, 1)
-    near, far, black, white = 0.1, 2 * z.max(), 1.2 * z.max(), 0.5 * z[surface].min()
-    ndc = numpy.where(surface, far / (far - near) * (1 - near / z), 1)
-    return {
-        "z": (depth, {}, True), "ray": (depth * secant, {}, True), "millimetres": (numpy.where(surface, numpy.round(1000 * z), 0), {"depth_scale": 0.001}, True),
-        "disparity": (numpy.where(surface, 100 / z, 0), {}, False), "reversed": (numpy.where(surface, near / z, 0), {}, False),
-        "reversed with near": (numpy.where(surface, near / z, 0), {"near": near}, True), "ndc with near and far": (ndc, {"near": near, "far": far}, True),
-        "white near": (numpy.where(surface, (black - z) / (black - white), 0), {}, False), "black near": (numpy.where(surface, (z - white) / (black - white), 1), {}, False),
-        "ndc": (ndc, {}, None),
-    }
+def all_stored_depths(depth, camera):
+    """Those of the table in docs/gbuffer.md, and one whose near plane is stated."""
+    stored = of_gbuffer.stored_depths(depth, camera)
+    return {**stored, "reversed with near": (stored["reversed"][0], {"near": 0.1}, True)}
 
 
 @pytest.mark.parametrize("scene", ["gallery", "lounge", "courtyard", "corridor", "banquet"])
@@ -189,11 +183,11 @@ def test_plane_surfaces_tell_what_depth_means(tmp_path, scene):
     frame = gloam.capture(scene, 640, 360, ["depth"])
     fov = float(numpy.degrees(2 * numpy.arctan(320 / frame.camera.fx)))
     surface = numpy.isfinite(frame["depth"])
-    for name, (values, stated, is_length) in stored_depths(frame["depth"], frame.camera).items():
+    for name, (values, stated, is_length) in all_stored_depths(frame["depth"], frame.camera).items():
         numpy.save(tmp_path / "depth.npy", values.astype(numpy.float32))
         depth = gloam.read(tmp_path / "depth.npy", fov=fov, **stated)
         note = [note for note in depth.notes if note.startswith("depth: taken as")][0]
-        if is_length is None:
+        if name == "ndc":
             assert "planar" in note and ("though plane surfaces" in note or "0..1" in note), (name, note)
             continue
         both = surface & numpy.isfinite(depth["depth"])

@@ -11,6 +11,11 @@ namespace gloam {
 /// `inverse`: 1 / z, up to a factor, as disparities are.
 enum class DepthConvention { automatic, z, ray, ndc, reversed, inverse };
 
+/// Normalised device depth: a share of the depth range, not a length.
+inline bool is_window_depth(DepthConvention depth) {
+  return depth == DepthConvention::ndc || depth == DepthConvention::reversed;
+}
+
 /// In which order three bytes of 8 bits hold depth of 24: red the lowest, or red the highest.
 enum class DepthBytes { automatic, low_first, high_first };
 
