@@ -126,6 +126,8 @@ void examine_all(const StressCommand& flags, const StressRequest& request, Stres
     gather(request, known, run);
     if (run.left.empty()) return;  // the final message comes with the exit status
     if (!flags.json.file().empty()) {
+      if (known.size() == 1)
+        say_on_interruption("the file of --json is as it was, or holds the techniques that were done");
       flags.json.write(document_of(run, device_flags(flags)));
       say_on_interruption("the file of --json holds the techniques that were done");
     }
