@@ -55,7 +55,7 @@ set(CPACK_DEBIAN_COMMAND_PACKAGE_NAME gloam)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
 # A device: any OpenCL driver. PoCL is one for every CPU.
-set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS "pocl-opencl-icd | opencl-icd, libhdf5-103-1")
+set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS "pocl-opencl-icd | opencl-icd, libhdf5-103-1, fonts-dejavu-core")
 set(CPACK_DEBIAN_COMMAND_DESCRIPTION "ambient occlusion and reflections on captured G-buffers
 gloam computes ambient occlusion and other image-space effects on frames
 that renderers and engines have written as OpenEXR: depth, and normals and
@@ -69,7 +69,7 @@ It runs on any OpenCL device, a CPU among them.")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libgloam-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "libfmt-dev, libglm-dev, libopenexr-dev, libdeflate-dev, libopencv-dev, libopencv-contrib-dev, \
-ocl-icd-opencl-dev, libpng-dev, libtiff-dev, libembree-dev, libassimp-dev, libssl-dev")
+ocl-icd-opencl-dev, libpng-dev, libtiff-dev, libfreetype-dev, libembree-dev, libassimp-dev, libssl-dev")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SUGGESTS "gloam, pocl-opencl-icd | opencl-icd")
 set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "image-space effects on captured G-buffers - C++ library
 gloam computes ambient occlusion and other image-space effects on frames
@@ -86,7 +86,7 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 # The module is compiled for one version of the interpreter, and for NumPy's arrays.
 math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${Python_VERSION_MINOR}~), python3 (<< 3.${next_minor}), python3-numpy")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "pocl-opencl-icd | opencl-icd, libhdf5-103-1")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "pocl-opencl-icd | opencl-icd, libhdf5-103-1, fonts-dejavu-core")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "gloam")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/cmake/package/python3-gloam/postinst;${PROJECT_SOURCE_DIR}/cmake/package/python3-gloam/prerm")
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "image-space effects on captured G-buffers - Python module

@@ -1,10 +1,11 @@
 """docs/gbuffer.md"""
+import re
 import warnings
 
 from catalogue import no_figures, table
 
 PAGE = "docs/gbuffer.md"
-no_figures(PAGE, "Conventions inside", 2, why="what is read as what")
+no_figures(PAGE, "What nothing states", 1, why="what is read as what")
 
 
 def stored_depths(depth, camera):
@@ -52,7 +53,18 @@ def scenes():
     return [gloam.capture(name, 640, 360, ["depth"]) for name in gloam.scenes()]
 
 
-@table(PAGE, "Conventions inside", 3, minutes=1)
+def of_all_conventions(lab):
+    """The counts of bench/conventions.py, and all of them together."""
+    rows = [[int(count) for count in re.findall(r"(\d+) (?:right|told|silent)", line)] for line in lab.program("conventions.py", "--random", "1,2").splitlines()]
+    return [[(count,) for count in row] for row in rows]
+
+
+@table(PAGE, "What nothing states", 2, minutes=9)
+def conventions_told(lab):
+    return of_all_conventions(lab)
+
+
+@table(PAGE, "What nothing states", 3, minutes=1)
 def meanings_of_depth(lab):
     of_frames = [of_frame(lab, frame) for frame in scenes()]
     return [[(sum(frame[row][column] for frame in of_frames),) for column in range(4)] for row in range(len(of_frames[0]))]

@@ -12,6 +12,15 @@ namespace gloam {
 /// A text in small letters, of ASCII alone.
 std::string lower(std::string_view text);
 
+/// A character of UTF-8.
+struct Character {
+  char32_t code;
+  size_t length;  ///< bytes
+};
+
+/// The character that a text begins with, which is not empty; U+FFFD for a byte that begins none.
+Character first_character(std::string_view text);
+
 /// A text in which each byte that has no place in one line of a terminal is replaced: control characters (line ends too), characters that
 /// change the direction of text, and bytes that are not UTF-8.
 std::string without_unprintables(std::string_view text, const std::function<std::string(unsigned char)>& shown);

@@ -222,6 +222,15 @@ Camera between(const Camera& a, const Camera& b, double t) {
 
 }  // namespace
 
+std::optional<std::pair<int, int>> stated_size(const fs::path& file) {
+  const json document = parse_camera_file(file);
+  const CameraFields fields{file.string(), "", document, document};
+  const std::optional<double> width = fields.positive("width"), height = fields.positive("height");
+  const auto is_size = [](const std::optional<double>& n) { return n && *n == std::floor(*n) && *n <= 65536; };
+  if (!is_size(width) || !is_size(height) || *width * *height > double(max_pixels)) return {};
+  return std::pair(int(*width), int(*height));
+}
+
 bool holds_camera(const json& value) {
   if (!value.is_object()) return false;
   constexpr std::array fields = {"camera_to_world", "world_to_camera", "projection_gl", "fx", "pixels_per_unit"};

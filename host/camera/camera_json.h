@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gloam/camera.h"
@@ -30,6 +32,9 @@ std::map<std::string, Camera> cameras_of(const nlohmann::json& camera_json, cons
 /// interpolated linearly, rotations by the shortest turn. Throws Error as `read_camera_file` does.
 std::vector<Camera> read_camera_path(const std::filesystem::path& file, const Window& display,
                                      std::vector<std::string>& assumed);
+
+/// The size of the image that a JSON of a camera or of a path states for all its views, pixels.
+std::optional<std::pair<int, int>> stated_size(const std::filesystem::path& file);
 
 /// Whether an object has a field that only cameras have.
 bool holds_camera(const nlohmann::json& value);

@@ -64,6 +64,24 @@ void check_switch(const CLI::App* command, const std::string& argument) {
     throw UsageError("{} is not allowed: {} takes no value; write {}, or leave it out", argument, flag, flag);
 }
 
+/// The name of the parameter that --normal-tolerance=0.5 sets; empty for a word that is no long flag.
+std::string parameter_of(const std::string& word) {
+  std::string name = word.rfind("--", 0) == 0 ? word.substr(0, word.find('=')).substr(2) : "";
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+/// Throws UsageError for a flag whose value was forgotten, such as --into -o ao.exr, where -o would be the value.
+void check_value(const CLI::App* command, const std::set<std::string>& parameters, const std::string& flag,
+                 const std::string& next) {
+  if (!command || !flag.starts_with("-") || flag.find('=') != std::string::npos || !next.starts_with("-")) return;
+  const CLI::Option* option = command->get_option_no_throw(flag);
+  if (option ? option->get_items_expected_min() == 0 : parameters.count(parameter_of(flag)) == 0) return;
+  if (command->get_option_no_throw(next.substr(0, next.find('='))) || parameters.count(parameter_of(next)) > 0)
+    throw UsageError("{} needs a value{}, and the next word, {}, is a flag", flag,
+                     option ? ", " + option->get_type_name() : "", next);
+}
+
 /// Every parameter is a flag: --normal-tolerance 0.5 becomes --set normal_tolerance=0.5.
 std::vector<std::string> with_parameter_flags(CLI::App& app, const std::vector<std::string>& words) {
   const CLI::App* const command = command_of(app, words);
@@ -73,9 +91,8 @@ std::vector<std::string> with_parameter_flags(CLI::App& app, const std::vector<s
     const std::string& argument = words[i];
     check_switch(command, argument);
     const size_t equals = argument.find('=');
-    std::string name =
-        argument.rfind("--", 0) == 0 ? argument.substr(2, equals == std::string::npos ? equals : equals - 2) : "";
-    std::replace(name.begin(), name.end(), '-', '_');
+    const std::string name = parameter_of(argument);
+    if (i + 1 < words.size()) check_value(command, names, argument, words[i + 1]);
     if (name.empty() || names.count(name) == 0) {
       arguments.push_back(argument);
       continue;
@@ -114,10 +131,11 @@ std::vector<std::string> flag_names(const CLI::App& command) {
   return names;
 }
 
-/// The error in the command line, in one line.
-std::string usage_message(CLI::App& app, const CLI::ParseError& error) {
+/// The error in the command line, in one line, which begins with the command as it was typed: `gloam ao` is `gloam run ao`.
+std::string usage_message(CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& typed) {
   const std::vector<CLI::App*> parsed = app.get_subcommands();
-  const std::string command = parsed.empty() ? "" : parsed.front()->get_name();
+  const bool is_technique = !parsed.empty() && !typed.empty() && names_technique(typed.front());
+  const std::string command = parsed.empty() ? "" : is_technique ? typed.front() : parsed.front()->get_name();
   const std::string help = fmt::format("(gloam {}{}--help)", command, command.empty() ? "" : " ");
   const std::vector<std::string> extras = app.remaining(true);
   if (command.empty() && !extras.empty()) return meant_by_first_word(extras.front());
@@ -129,7 +147,11 @@ std::string usage_message(CLI::App& app, const CLI::ParseError& error) {
     return fmt::format("{}: {} '{}'{} {}", command, is_flag ? "no flag" : "one argument too many:", extra,
                        is_flag ? suggestion(extra.substr(0, extra.find('=')), flag_names(*parsed.front())) : "", help);
   }
-  std::string message = error.what();
+  std::string message;
+  if (!command.empty()) message = repeated_in_words(*parsed.front(), command);
+  if (!command.empty() && message.empty()) message = lacking_in_words(*parsed.front(), command);
+  if (!message.empty()) return fmt::format("{} {}", message, help);
+  message = error.what();
   std::replace(message.begin(), message.end(), '\n', ' ');
   return fmt::format("{}{}{} {}", command, command.empty() ? "" : ": ", message, help);
 }
@@ -144,19 +166,20 @@ void print_parameters(const std::string& owner, const ParameterList& parameters,
     rows.push_back({(settable.count(p.name) ? "  --" : "  --set ") + p.name, initial.text(p.name),
                     "(" + allowed_values(p) + ")", p.help});
   }
-  fmt::print("\nParameters of {}:\n", owner);
+  fmt::print("Parameters of {}:\n", owner);
   print_table(rows, 4);
+  fmt::print("\n");
 }
 
-/// `gloam run hbao+ --help` and `gloam capture statue --help` also show the parameters.
+/// `gloam hbao+ --help` and `gloam capture statue --help` begin with what these are, and their parameters.
 void print_parameters_of(CLI::App& app, const std::vector<std::string>& words) {
   const std::set<std::string> settable = settable_by(command_of(app, words));
   for (const std::string& word : words) {
     const std::vector<std::string> names = technique_names();
     const std::string name = technique_for(word);
     if (contains(names, name)) {
-      fmt::print("\n");
       print_technique(find_technique(name), settable);
+      fmt::print("\n");
     }
     if (const SceneRecipe* recipe = find_builtin_scene(word))
       print_parameters(recipe->name, recipe->parameters, settable);
@@ -187,9 +210,9 @@ int show(CLI::App& app, const CLI::Success& what, const std::vector<std::string>
     fmt::print("{}{}", app.help(), help_of_all_commands(app));
     return 0;
   }
-  const int status = app.exit(what);
   print_parameters_of(app, words);
-  return status;
+  std::fflush(stdout);  // CLI11 writes to std::cout
+  return app.exit(what);
 }
 
 int run_command(int argc, char** argv) {
@@ -221,7 +244,7 @@ int run_command(int argc, char** argv) {
   add_commands(app);
   add_completion(app, settable_by);
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) add_quiet_flag(*command);
-  const std::vector<std::string> words = completed_words(words_of(argc, argv));
+  const std::vector<std::string> typed = words_of(argc, argv), words = completed_words(typed);
   // Prints help for a person who looks for the commands. The exit status is that of wrong usage, as git's is not 0 either: a script
   // whose command is empty by mistake must fail.
   if (words.empty()) {
@@ -237,7 +260,7 @@ int run_command(int argc, char** argv) {
     if (!asks_for(app, "--help")) throw;
     return show(app, CLI::CallForHelp(), words);
   } catch (const CLI::ParseError& error) {
-    throw UsageError("{}", usage_message(app, error));
+    throw UsageError("{}", usage_message(app, error, typed));
   }
   return 0;
 }

@@ -23,8 +23,11 @@ void assume_missing_camera(const ExrFile& file, const FileCameras& known, View& 
   // Another note already says why a JSON or an incomplete header was not used.
   const bool is_explained = !known.json_misfit.empty() || pose != known.poses.end();
   const char* none = is_explained ? "" : "none by flag, header or a JSON beside the file; ";
-  add_new(frame.assumed, fmt::format("camera: {}a horizontal field of view of {:g} degrees is assumed ({}, {})", none,
-                                     assumed_fov, option("fov"), option("camera")));
+  // gloam info has these lines below its notes.
+  const bool has_lines = !file.headers.text("BlenderMultiChannel").empty() && !file.options.only_looks;
+  add_new(frame.assumed, fmt::format("camera: {}a horizontal field of view of {:g} degrees is assumed ({}, {}{})", none,
+                                     assumed_fov, option("fov"), option("camera"),
+                                     has_lines ? "; gloam info prints lines with which Blender writes it" : ""));
 }
 
 }  // namespace gloam

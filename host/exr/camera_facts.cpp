@@ -48,8 +48,11 @@ Json camera_from(const FrameFile& file, const ReadOptions& options, const std::s
   if (!options.camera_file.empty() || options.fov_degrees) return "flag";
   const auto residual = file.camera_residual(view);
   if (residual && residual->is_fitted && camera->source == "fitted to positions") return "fit";
+  const bool is_of_header = camera->source == file.text_attribute("gloamCamera");
+  if (camera->source.starts_with("matrix '") && !is_of_header) return "matrix";
+  if (camera->source == "default of the data set" && !is_of_header) return "default";
   // A header may name the JSON that its camera came from.
-  const bool is_json = camera->source.ends_with(".json") && camera->source != file.text_attribute("gloamCamera");
+  const bool is_json = camera->source.ends_with(".json") && !is_of_header;
   return is_json ? "json" : "header";
 }
 

@@ -9,7 +9,7 @@
 
 namespace gloam {
 
-/// "camera" (the first), "cameras" by view, "camera_from" ("flag", "header", "json", "fit" or null) and, where positions tell it,
+/// "camera" (the first), "cameras" by view, "camera_from" ("flag", "header", "json", "fit", "matrix", "default" or null) and, where positions tell it,
 /// "camera_residual_pixels" (median) and "camera_residual_pixels_99" of the first; else null. `options`: those that the file was opened with.
 void add_cameras(const FrameFile& file, const ReadOptions& options, nlohmann::ordered_json& document);
 

@@ -100,7 +100,6 @@ void add_unnamed_beauty(std::vector<Candidate>& candidates, const std::vector<La
     const bool known = std::any_of(spellings().begin(), spellings().end(),
                                    [&](const Spelling& spelling) { return layer.name == spelling.layer; });
     if (known || layer.path.empty() || !layer.prefix.empty() || is_other_data(layer.name)) continue;
-    if (layer.name.starts_with("crypto")) continue;
     if (layer.components.size() != 4 || pick(layer, "r,g,b,a").empty()) continue;
     found.push_back({&layer, pick(layer, components), only_rgba, DeclaredConvention::nothing, 1});
   }

@@ -12,6 +12,7 @@
 #include "base/words.h"
 #include "exr/channel_candidates.h"
 #include "exr/channel_layers.h"
+#include "exr/channel_sums.h"
 #include "exr/channel_text.h"
 #include "gloam/error.h"
 #include "gloam/option.h"
@@ -206,6 +207,7 @@ void name_view(NamedPlanes& named, const std::vector<Entry>& entries, const std:
       continue;
     }
     std::vector<Candidate> candidates = candidates_of(kind.name, layers);
+    add_sums(candidates, kind.name, layers);
     if (kind.name == "color") add_unnamed_beauty(candidates, layers, "r,g,b");
     if (kind.name == "alpha") add_unnamed_beauty(candidates, layers, "a");
     const Candidate* best = best_of(candidates, prefix);

@@ -11,9 +11,9 @@
 namespace gloam::channel_names {
 namespace {
 
-constexpr const char* xyz = "x,y,z|r,g,b";
-constexpr const char* rgb = "r,g,b|x,y,z";
-constexpr const char* one = "z|v|r|y|x|a|depth";
+constexpr const char* xyz = "x,y,z|r,g,b|red,green,blue";  // Nuke: red, green, blue
+constexpr const char* rgb = "r,g,b|x,y,z|red,green,blue";
+constexpr const char* one = "z|v|r|y|x|a|depth|red";
 
 /// What others call the planes, and how gloam does where another way of writing its own name (planes.h) is taken for it too, or where
 /// that name alone, in any layer, is not enough.
@@ -27,9 +27,13 @@ std::vector<Spelling> known_spellings() {
       {"depth", "depth", one, renderer},
       {"depth", "z", one, renderer},
       {"depth", "zdepth", one, renderer},
+      {"depth", "vrayzdepth", one, renderer},  // V-Ray, Corona: a grey between two distances
+      {"depth", "cgeometryzdepth", one, renderer},
+      {"depth", "octzdepth", one, renderer},  // Octane for Blender
       {"depth", "depthz", one, renderer},
       {"depth", "worlddepth", one, renderer},
       {"depth", "scenedepth", one, renderer},
+      {"depth", "depthsensor", one, generic},  // Habitat
       {"depth", "depthpass", one, generic},
       {"depth", "zpass", one, generic},
       {"depth", "pz", one, renderer},
@@ -47,7 +51,7 @@ std::vector<Spelling> known_spellings() {
       {"depth", "*", "distance", last_resort, ray_distance},
 
       // Normals. Blender: Normal. Arnold, Karma: N. RenderMan: Nn, __Nworld. Mitsuba: the user's name ("nn").
-      {"normal", "n", "r,g,b", renderer},
+      {"normal", "n", "r,g,b|red,green,blue", renderer},
       {"normal", "normal", xyz, renderer},
       {"normal", "normals", xyz, renderer},
       {"normal", "nworld", xyz, renderer, world_space},
@@ -58,6 +62,12 @@ std::vector<Spelling> known_spellings() {
       {"normal", "shnormal", xyz, renderer},
       {"normal", "shadingnormal", xyz, renderer},
       {"normal", "smoothnormal", xyz, generic},
+      {"normal", "vraynormals", xyz, renderer, view_space},
+      {"normal", "cgeometrynormalsshading", xyz, renderer},
+      {"normal", "octshadingnormal", xyz, renderer},
+      {"normal", "octsmoothnormal", xyz, generic},
+      {"normal", "bumpnormals", xyz, generic},  // Redshift
+      {"normal", "vraybumpnormals", xyz, generic},
       {"normal", "hitn", xyz, renderer},
       {"normal", "rayhitn", xyz, renderer},
       {"normal", "ns", xyz, generic},
@@ -67,6 +77,8 @@ std::vector<Spelling> known_spellings() {
       {"normal", "neye", xyz, generic, view_space},
       {"normal", "ncam", xyz, generic, view_space},
       {"normal", "geonormal", xyz, last_resort},
+      {"normal", "cgeometrynormalsgeometry", xyz, last_resort},
+      {"normal", "octgeonormal", xyz, last_resort},
       {"normal", "ng", xyz, last_resort},
       {"normal", "ngn", xyz, last_resort},
       {"normal", "hitng", xyz, last_resort},
@@ -83,6 +95,7 @@ std::vector<Spelling> known_spellings() {
       {"color", "ci", rgb, renderer},
       {"color", "color", rgb, generic},
       {"color", "colors", rgb, generic},
+      {"color", "colorsensor", rgb, generic},
       {"color", "main", rgb, generic},
       {"alpha", "", "a", own},
       {"alpha", "combined", "a", renderer},
@@ -93,6 +106,7 @@ std::vector<Spelling> known_spellings() {
       {"alpha", "c", "a", renderer},
       {"alpha", "ci", "a", renderer},
       {"alpha", "color", "a", generic},
+      {"alpha", "colorsensor", "a", generic},
       {"alpha", "main", "a", generic},
       {"alpha", "alpha", "a|r|v|x|y|z", generic},
       {"alpha", "*", "alpha", generic},
@@ -100,19 +114,62 @@ std::vector<Spelling> known_spellings() {
       // Material.
       {"albedo", "albedo", rgb, own},
       {"albedo", "diffusealbedo", rgb, renderer},
+      {"albedo", "diffusereflectance", rgb, renderer},
       {"albedo", "diffcol", rgb, renderer},
       {"albedo", "basecolor", rgb, renderer},
       {"albedo", "basecolour", rgb, renderer},
+      {"albedo", "diffusefilter", rgb, renderer},  // Redshift, V-Ray for Maya
+      {"albedo", "vraydiffusefilter", rgb, renderer},
+      {"albedo", "cshadingalbedo", rgb, renderer},
       {"albedo", "diffusecolor", rgb, generic},
       {"albedo", "rawalbedo", rgb, generic},
       {"albedo", "denoisealbedo", rgb, last_resort},
       {"albedo", "denoisingalbedo", rgb, last_resort},
       {"ambient", "ambient", rgb, own},
+
+      // Light that occlusion does not darken, and diffuse light that it does. Blender divides by the colour: DiffDir, TransInd.
+      {"emission", "emission", rgb, own},
+      {"emission", "emit", rgb, renderer},
+      {"emission", "emissive", rgb, renderer},
+      {"emission", "directemission", rgb, renderer},
+      {"emission", "vrayselfillumination", rgb, renderer},
+      {"emission", "cessentialemission", rgb, renderer},
+      {"emission", "selfillumination", rgb, renderer},
+      {"emission", "selfillum", rgb, renderer},
+      {"backdrop", "backdrop", rgb, own},
+      {"backdrop", "background", rgb, renderer},
+      {"backdrop", "env", rgb, renderer},
+      {"backdrop", "vraybackground", rgb, renderer},
+      {"volume", "volume", rgb, own},
+      {"volume", "volumedir+volumeind", rgb, renderer},
+      {"volume", "volumelighting+volumefogemission", rgb, renderer},
+      {"volume", "volumedirect+volumeindirect", rgb, renderer},
+      {"volume", "vrayatmosphere", rgb, renderer},
+      {"volume", "combinedvolume", rgb, renderer},
+      {"volume", "volumedir", rgb, generic},
+      {"volume", "volumeind", rgb, generic},
+      {"volume", "volumelighting", rgb, generic},
+      {"volume", "atmosphere", rgb, generic},
+      {"transmission", "transmission", rgb, own},
+      {"transmission", "transdir+transind*transcol", rgb, renderer},
+      {"transmission", "transmissiondirect+transmissionindirect", rgb, renderer},
+      {"transmission", "transmissive", rgb, renderer},
+      {"transmission", "glossytransmission", rgb, renderer},
+      {"transmission", "vrayrefraction", rgb, renderer},
+      {"transmission", "refractions", rgb, renderer},
+      {"transmission", "refraction", rgb, generic},
+      {"transmission", "refract", rgb, generic},
+      {"illumination", "illumination", rgb, own},
+      {"illumination", "diffuseillumination", rgb, renderer},
+      {"illumination", "diffdir+diffind", rgb, renderer},
       {"metallic", "metallic", "x|r|v|y|z|a", renderer},
       {"metallic", "metalness", "x|r|v|y|z|a", renderer},
+      {"metallic", "metal", "x|r|v|y|z|a", generic},  // Unity
+      {"metallic", "vraymetalness", "x|r|v|y|z|a", renderer},
       {"metallic", "*", "metalness", renderer},
       {"roughness", "roughness", "x|r|v|y|z|a", renderer},
       {"roughness", "specularroughness", "x|r|v|y|z|a", renderer},
+      {"roughness", "vrayroughness", "x|r|v|y|z|a", renderer},
       {"roughness", "*", "specularroughness", renderer},
       {"reflectance", "reflectance", rgb, own},
       {"reflectance", "specularalbedo", rgb, renderer},
@@ -120,12 +177,14 @@ std::vector<Spelling> known_spellings() {
       {"reflectance", "specularcolor", rgb, generic},
 
       // Geometry.
-      {"position", "p", "r,g,b", renderer},
+      {"position", "p", "r,g,b|red,green,blue", renderer},
       {"position", "position", xyz, renderer},
       {"position", "positions", xyz, renderer},
       {"position", "pworld", xyz, renderer},
       {"position", "worldposition", xyz, renderer},
       {"position", "absoluteworldposition", xyz, renderer},
+      {"position", "cgeometryworldposition", xyz, renderer},
+      {"position", "octposition", xyz, renderer},
       {"position", "hitp", xyz, renderer},
       {"position", "rayhitp", xyz, renderer},
       {"position", "pp", xyz, generic},
@@ -194,7 +253,7 @@ bool is_other_data(const std::string& layer) {
   static const std::set<std::string> known = {"mist",      "uv",          "indexob",    "indexma",
                                               "disparity", "disparityl",  "disparityr", "volumez",
                                               "vector",    "cryptomatte", "id",         "gloamcomposite"};
-  return known.contains(layer);
+  return known.contains(layer) || layer.starts_with("crypto");
 }
 
 }  // namespace gloam::channel_names

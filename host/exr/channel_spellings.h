@@ -14,7 +14,8 @@ enum Rank { own, renderer, generic, last_resort, only_rgba = 50 };
 /// A layer, and its channels that make up a plane.
 struct Spelling {
   std::string plane;
-  std::string layer;       ///< canonical; "": no layer; "*": any layer, for channels whose own name is enough
+  std::string
+      layer;  ///< canonical; "": no layer; "*": any layer, for channels whose own name is enough; "a+b*c": channel_sums.h
   std::string components;  ///< alternatives separated by '|', best first; the components of each separated by ','
   Rank rank;
   DeclaredConvention said = DeclaredConvention::nothing;

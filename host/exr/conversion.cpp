@@ -38,6 +38,7 @@ void Conventions::take(const Conventions& found) {
   take(found.depth);
   if (!found.normal_space.empty()) normal_space = found.normal_space;
   normals = found.normals;
+  read_depth = found.read_depth;
 }
 
 std::vector<std::string> planes_to_decode(const std::vector<std::string>& asked) {
@@ -64,7 +65,7 @@ void convert_planes(const ExrFile& file, const FileCameras& cameras, Frame& fram
   for (View& view : frame.views) {
     assume_missing_camera(file, cameras, view, frame);
     has_background |= has_named_background(file, view);
-    conventions.take(convert_depth(file, cameras, view, frame));
+    conventions.take(convert_depth(file, cameras, view, frame, conventions.read_depth));
     conventions.take(convert_normals(file, view, frame, conventions.normals));
     note_fills(file, view, frame);
     light.add(view, view.find("depth"));

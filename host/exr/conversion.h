@@ -17,6 +17,7 @@ struct Conventions {
   std::string depth;         ///< as returned by `to_view_depth`; empty before
   std::string normal_space;  ///< "view" or "world"; empty before, and without usable normals
   FoundNormals normals;      ///< of the first view that has any
+  FoundDepth read_depth;     ///< of the first view whose depth nothing states
 
   void take(const std::string& depth_convention);
   void take(const std::optional<NormalForm>& form);

@@ -1,6 +1,9 @@
 #include "exr/decode_planes.h"
 
+#include <algorithm>
+
 #include "exr/attributes.h"
+#include "exr/channel_sums.h"
 #include "exr/decode.h"
 #include "exr/errors.h"
 #include "exr/validation.h"
@@ -32,13 +35,21 @@ void allocate(const ExrFile& file, const std::string& plane, const Layout& layou
     to.channels.emplace_back(layout, plane_kind(plane).outside);
 }
 
-/// Calls `work(source, channel, plane)` for each channel that the file has. `AnyFrame`: Frame, const or not.
+/// Calls `work(source, plane)` for each plane that the file has. `AnyFrame`: Frame, const or not.
 template <typename AnyFrame, typename Work>
-void for_each_channel(const ExrFile& file, AnyFrame& frame, const Work& work) {
+void for_each_plane(const ExrFile& file, AnyFrame& frame, const Work& work) {
   for (auto& view : frame.views)
     for (auto& [name, plane] : view.planes)
-      if (const PlaneSource* from = file.source(name, view.name))
-        for (size_t i = 0; i < from->channels.size(); ++i) work(from->channels[i], plane.channels[i], *from);
+      if (const PlaneSource* from = file.source(name, view.name)) work(*from, plane);
+}
+
+/// Calls `work(source, channel, plane)` for each channel that the file has. Of layers that were added up, those of the first.
+template <typename AnyFrame, typename Work>
+void for_each_channel(const ExrFile& file, AnyFrame& frame, const Work& work) {
+  for_each_plane(file, frame, [&](const PlaneSource& from, auto& plane) {
+    const size_t channels = std::min(from.channels.size(), plane.channels.size());
+    for (size_t i = 0; i < channels; ++i) work(from.channels[i], plane.channels[i], from);
+  });
 }
 
 /// The channels to decode, by part.
@@ -87,6 +98,7 @@ void decode_planes(const ExrFile& file, Frame& frame) {
   for_each_channel(file, frame, [&](const ChannelSource& source, Channel& channel, const PlaneSource&) {
     if (source.scale != 1 && !file.options.unconverted) scale_image(channel, source.scale);
   });
+  for_each_plane(file, frame, [](const PlaneSource& source, Plane& plane) { add_up(source, plane); });
 }
 
 void add_nonfinite(const ExrFile& file, const Frame& frame, NonfiniteCounts& counts) {

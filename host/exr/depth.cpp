@@ -6,6 +6,7 @@
 #include "base/lists.h"
 #include "exr/depth_of_positions.h"
 #include "exr/errors.h"
+#include "exr/normals_beside.h"
 #include "gloam/error.h"
 #include "gloam/option.h"
 #include "gloam/planes.h"
@@ -102,6 +103,15 @@ ReadOptions with_declared_depth(const ExrFile& file, const PlaneSource& depth, c
   return options;
 }
 
+/// What is stated of the depth, or else what was found of it for the whole shot that the frame belongs to.
+StatedDepth with_shot(const ExrFile& file, const ReadOptions& options, std::vector<std::string>& notes) {
+  if (options.depth != DepthConvention::automatic || !options.shot_depth) return options.stated_depth();
+  const FoundDepth shot = options.shot_depth(file.path);
+  if (!shot.read) return options.stated_depth();
+  add_new(notes, shot.notes);
+  return *shot.read;
+}
+
 }  // namespace
 
 std::string declared_depth_convention(const ExrFile& file) {
@@ -131,22 +141,28 @@ bool has_named_background(const ExrFile& file, const View& view) {
          holds(depth->channels.front(), *file.options.background);
 }
 
-std::string convert_depth(const ExrFile& file, const FileCameras& cameras, View& view, Frame& frame) {
-  const auto found = view.planes.find("depth");
-  if (found == view.planes.end()) return "";
+std::string convert_depth(const ExrFile& file, const FileCameras& cameras, View& view, Frame& frame,
+                          FoundDepth& found) {
+  const auto plane = view.planes.find("depth");
+  if (plane == view.planes.end()) return "";
   if (is_made_of_positions(file, view.name)) {
     make_depth(file, cameras.positions.at(view.name), view, frame);
     return "z";
   }
-  Channel& depth = found->second.channels.front();
+  Channel& depth = plane->second.channels.front();
   const PlaneSource& source = *file.source("depth", view.name);
   const DepthRelation relation = relation_to_positions(file, cameras, view);
   const ReadOptions options = with_declared_depth(file, source, relation, frame.assumed);
   const Plane* alpha = view.find("alpha");
   std::vector<std::string> notes;
   const std::string convention = named(file.path, [&] {
-    return to_view_depth(depth, alpha ? &alpha->channels.front() : nullptr, file.window, *view.camera,
-                         options.stated_depth(), notes);
+    const StatedDepth stated = with_shot(file, options, notes);
+    const bool is_untold = stated.convention == DepthConvention::automatic;
+    const bool is_wrapped = stated.encoding && stated.encoding->wrapped;
+    const std::optional<NormalsBeside> normals =
+        is_untold || is_wrapped ? normals_beside(file, cameras, view) : std::nullopt;
+    return to_view_depth(depth, alpha ? &alpha->channels.front() : nullptr, file.window, *view.camera, stated, notes,
+                         normals ? &*normals : nullptr, found.read ? nullptr : &found);
   });
   scale_to_positions(source, relation.scale, depth, notes);
   const bool is_half = std::all_of(source.channels.begin(), source.channels.end(),

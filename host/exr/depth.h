@@ -17,7 +17,7 @@ bool has_named_background(const ExrFile& file, const View& view);
 
 /// Brings a view's depth to planar view-space z, in the units of the positions if they tell, and notes assumptions. Returns the convention (normalise/depth.h); empty
 /// without depth.
-std::string convert_depth(const ExrFile& file, const FileCameras& cameras, View& view, Frame& frame);
+std::string convert_depth(const ExrFile& file, const FileCameras& cameras, View& view, Frame& frame, FoundDepth& found);
 
 /// Adds the note for a frame without any pixel of the depth that --background names.
 void note_missing_background(const ExrFile& file, Frame& frame);

@@ -188,6 +188,8 @@ std::vector<std::pair<std::string, std::string>> FrameFile::attributes() const {
 
 // --- From the pixels
 
+const FoundDepth& FrameFile::found_depth() const { return impl_->conventions.read_depth; }
+
 std::string FrameFile::depth_convention() const {
   return impl_->conventions.depth.empty() ? declared_depth_convention(impl_->file) : impl_->conventions.depth;
 }

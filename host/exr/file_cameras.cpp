@@ -95,7 +95,8 @@ class Search {
 
   /// The camera by --fov, with all else that is known.
   Camera by_field_of_view(const std::optional<Camera>& known, const std::optional<Pose>& pose) const {
-    Camera camera = camera_from_fov(*options_.fov_degrees, file_.display, file_.pixel_aspect, option("fov"));
+    const std::string source = options_.fov_from.empty() ? option("fov") : options_.fov_from;
+    Camera camera = camera_from_fov(*options_.fov_degrees, file_.display, file_.pixel_aspect, source);
     camera.pose = known ? known->pose : pose;
     if (known) camera.near = known->near, camera.far = known->far;
     return camera;

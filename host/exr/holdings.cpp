@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "exr/plane_facts.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 
 namespace gloam {
 
@@ -13,10 +15,21 @@ std::string first_names(std::vector<std::string> names) {
   return fmt::format("{}{}", fmt::join(names, ", "), rest);
 }
 
+std::string hint_on_depth(const FrameFile& file) {
+  const std::vector<std::string> names = file.all_channels(), planes = file.common_planes();
+  if (std::find(planes.begin(), planes.end(), "depth") != planes.end() || unread_channels(file).empty()) return "";
+  if (names.size() == 1 && planes.empty())
+    return fmt::format("{} takes its only channel for the depth", channels_option("depth", names.front()));
+  return fmt::format("{} takes a channel of another name for it, {} makes it of positions",
+                     channels_option("depth", "CHANNEL"), channels_option("position", "LAYER"));
+}
+
 std::string holdings(const FrameFile& file) {
   const std::vector<std::string> names = file.all_channels();
   const std::string name = file.path().filename().string();
-  return names.empty() ? name + " has no channels" : fmt::format("{} has only {}", name, first_names(names));
+  if (names.empty()) return name + " has no channels";
+  const std::string hint = hint_on_depth(file);
+  return fmt::format("{} has only {}{}{}", name, first_names(names), hint.empty() ? "" : "; ", hint);
 }
 
 std::string holdings(const FrameFiles& files) {

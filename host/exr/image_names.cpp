@@ -50,7 +50,7 @@ std::string plane_of_word(const std::string& word) {
   constexpr size_t shortest = 2;  // "n", "p" and "c" end many names
   if (word.size() < shortest) return "";
   for (const channel_names::Spelling& spelling : channel_names::spellings())
-    if (spelling.layer == word) return spelling.plane;
+    if (spelling.layer == word && spelling.plane != "backdrop") return spelling.plane;  // "env.hdr" is a map of light
   return "";
 }
 

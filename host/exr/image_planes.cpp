@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "base/lists.h"
 #include "base/srgb.h"
 #include "exr/channel_spellings.h"
 #include "exr/channel_text.h"
+#include "frame/untouched.h"
 #include "gloam/error.h"
 #include "gloam/option.h"
 #include "gloam/planes.h"
@@ -35,25 +37,31 @@ bool is_equal(const Channel& a, const Channel& b) {
 }
 
 /// Planes that are light, whose whole numbers are those of pictures.
-bool is_light(const std::string& plane) { return plane == "color" || plane == "albedo" || plane == "ambient"; }
+bool is_light(const std::string& plane) {
+  return plane == "color" || plane == "ambient" || contains(planes_of_darkened_light(), plane);
+}
 
-/// How much neighbours differ in all.
-double variation(const Channel& channel) {
-  double sum = 0;
-  const int width = channel.layout().width;
-  for (int y = 0; y < channel.layout().height; ++y) {
-    const float* row = channel.row(y);
-    for (int x = 1; x < width; ++x) sum += double(std::abs(row[x] - row[x - 1]));
+/// How many neighbours lie far apart, of values of 8 bits.
+long long jumps_of(const Channel& channel) {
+  constexpr float far_apart = 32;
+  long long jumps = 0;
+  const int width = channel.layout().width, height = channel.layout().height;
+  for (int y = 0; y < height; ++y) {
+    const float *row = channel.row(y), *next = channel.row(std::min(y + 1, height - 1));
+    for (int x = 0; x < width; ++x) {
+      jumps += std::abs(row[std::min(x + 1, width - 1)] - row[x]) >= far_apart;
+      jumps += std::abs(next[x] - row[x]) >= far_apart;
+    }
   }
-  return sum;
+  return jumps;
 }
 
 /// Whether red is the lowest byte: it wraps from pixel to pixel as noise does, and the highest hardly changes. Throws Error for a picture,
 /// which has no such components.
 bool has_red_lowest(const ImageValues& image, const ImageWords& file) {
-  constexpr double least_ratio = 4;
-  const double red = variation(image.channels[0]), blue = variation(image.channels[2]);
-  if (std::max(red, blue) >= least_ratio * std::min(red, blue)) return red >= blue;
+  constexpr long long least_ratio = 3, fewest = 64;
+  const long long red = jumps_of(image.channels[0]), blue = jumps_of(image.channels[2]);
+  if (std::max(red, blue) >= fewest && std::max(red, blue) >= least_ratio * std::min(red, blue)) return red >= blue;
   throw Error(
       "{}: has three components that vary alike, as a picture's do, and depth of 24 bits has one byte that hardly "
       "varies; name a file of depth, or say {} or high-first",
@@ -134,7 +142,7 @@ Channel depth_of(ImageValues image, const ImageWords& file, const ReadOptions& o
       options.depth_scale || options.depth_offset || options.depth == DepthConvention::inverse
           ? ""
           : fmt::format(", taken for scene units; {} makes metres of millimetres", option("depth-scale", "0.001")),
-      image.largest > 255 ? "" : ": 256 steps are too few for smooth surfaces"));
+      image.largest > 255 ? "" : ": 256 steps are too few for smooth surfaces; store 16 bits, or floats"));
   return depth;
 }
 

@@ -33,8 +33,8 @@ StatedNormals stated_by_file(const ExrFile& file, const PlaneSource& normal) {
 }
 
 /// What flags state, then the file, then the shot that its frame belongs to.
-StatedNormals stated_normals(const ExrFile& file, const PlaneSource& normal, bool& is_of_shot,
-                             std::vector<std::string>& notes) {
+StatedNormals stated_with_shot(const ExrFile& file, const PlaneSource& normal, bool& is_of_shot,
+                               std::vector<std::string>& notes) {
   const NormalConvention& flags = file.options.normals;
   StatedNormals stated = stated_by_file(file, normal);
   std::vector<std::string> by;
@@ -65,7 +65,7 @@ std::optional<NormalForm> form_of(const ExrFile& file, const View& view, const N
   const Plane* depth = view.find("depth");
   std::vector<std::string> notes, of_frame;
   bool is_of_shot = false;
-  const StatedNormals stated = stated_normals(file, *file.source("normal", view.name), is_of_shot, notes);
+  const StatedNormals stated = stated_with_shot(file, *file.source("normal", view.name), is_of_shot, notes);
   if (!depth && stated.convention.space == NormalSpace::automatic)
     notes.push_back(fmt::format("normal: taken as view space, since there is no depth to compare with ({})",
                                 option("normal-space")));
@@ -88,6 +88,10 @@ std::optional<NormalForm> form_of(const ExrFile& file, const View& view, const N
 }
 
 }  // namespace
+
+NormalConvention stated_normals(const ExrFile& file, const PlaneSource& normal) {
+  return with_unstated(file.options.normals, stated_by_file(file, normal).convention);
+}
 
 std::optional<NormalForm> find_normal_form(const ExrFile& file, const View& view, const NormalSamples& samples,
                                            const std::function<long long(const NormalForm&)>& count_missing,

@@ -11,6 +11,9 @@
 
 namespace gloam {
 
+/// What flags and the file state of normals.
+NormalConvention stated_normals(const ExrFile& file, const PlaneSource& normal);
+
 /// The form of a view's normals in the file; none, with a note, if the normals are unusable. `count_missing`: number of foreground
 /// pixels without a normal, if the normals are read in that form. `found`: set, unless a view before has set it.
 std::optional<NormalForm> find_normal_form(const ExrFile& file, const View& view, const NormalSamples& samples,

@@ -121,6 +121,7 @@ ImageValues plane_of_exr(const std::string& plane, const fs::path& path, long lo
   ReadOptions options;
   options.only_looks = options.unconverted = true;
   options.most_pixels = most_pixels;
+  options.looks_beside = false;
   const size_t wanted = plane_kind(plane).components.size();
   const FrameFile named(path, options);
   if (!contains(named.common_planes(), plane)) {
@@ -185,6 +186,7 @@ bool take_intrinsics(const ImageValues& image, const Layout& size, ReadOptions& 
   const double fov = 2 * std::atan(size.width / (2 * focal)) * 180 / std::numbers::pi;
   if (!(fov >= 1 && fov <= 179)) return false;
   options.fov_degrees = fov;
+  options.fov_from = fmt::format("matrix '{}'", printable(image.name));
   notes.push_back(
       fmt::format("camera: the field of view, {:.4g} degrees, is that of the matrix '{}', with square pixels and a "
                   "centred lens; {} says otherwise",
@@ -299,8 +301,7 @@ std::unique_ptr<ExrInput> open_input(const fs::path& path, ReadOptions& options,
   std::vector<std::string> stated = {"depth"};
   for (const auto& [plane, file] : options.plane_files) stated.push_back(plane);
   const auto depth_file = options.plane_files.find("depth");
-  if (is_image && (depth_file == options.plane_files.end() || is_same(depth_file->second, path)))
-    take_writer(path, options, notes);
+  if (depth_file == options.plane_files.end() || is_same(depth_file->second, path)) take_writer(path, options, notes);
   if (!is_image && options.plane_files.empty()) return std::make_unique<ExrInput>(path);
   const auto own_depth = options.plane_files.find("depth");
   if (own_depth != options.plane_files.end() || is_image)

@@ -9,6 +9,7 @@
 #include "base/words.h"
 #include "exr/position_samples.h"
 #include "gloam/error.h"
+#include "gloam/option.h"
 
 namespace gloam {
 namespace {
@@ -64,6 +65,7 @@ class Settling {
         check(view, few[view], many);
       }
     }
+    replace_strange_depth();
     drop_depth_without_camera();
   }
 
@@ -257,6 +259,27 @@ class Settling {
       return;
     }
     compare(view, known, samples, better.camera);
+  }
+
+  /// A depth of which nothing is stated, and that fits the positions in no way, gives way to one that is made of them: a grey has no lengths.
+  void replace_strange_depth() {
+    const ReadOptions& options = file_.options;
+    const bool is_stated = states_anything(options.stated_depth()) || options.channels.contains("depth") ||
+                           options.plane_files.contains("depth") || file_.headers.has("gloamOrigin");
+    if (is_stated || options.unconverted || (options.as_stored && !options.only_looks)) return;
+    for (PlaneSource& depth : file_.names.planes) {
+      const auto found = cameras_.positions.find(depth.view);
+      if (depth.plane != "depth" || depth.said != DeclaredConvention::nothing || found == cameras_.positions.end() ||
+          found->second.depth.kind != DepthRelation::neither)
+        continue;
+      const std::string name = depth.channels.front().name;
+      note(fmt::format(
+          "depth{}: made from the positions, since '{}' is neither their planar distance nor their distance "
+          "along the ray; {} reads it all the same",
+          of_view(depth.view), name, channels_option("depth", name)));
+      depth = {"depth", depth.view, file_.source("position", depth.view)->channels,
+               DeclaredConvention::made_of_positions};
+    }
   }
 
   /// A view whose depth was to be made from positions has none where nothing tells the pose.

@@ -16,6 +16,7 @@ inline const Choices<NormalSpace> normal_space_words = {
     {"auto", NormalSpace::automatic}, {"view", NormalSpace::view}, {"world", NormalSpace::world}};
 inline const Choices<NormalRange> normal_range_words = {{"auto", NormalRange::automatic},
                                                         {"signed", NormalRange::signed_values},
-                                                        {"unsigned", NormalRange::unsigned_values}};
+                                                        {"unsigned", NormalRange::unsigned_values},
+                                                        {"srgb", NormalRange::srgb_values}};
 
 }  // namespace gloam

@@ -46,7 +46,7 @@ struct ViewSums {
 
 Plane decoded(const Plane& normal, const Camera& camera) {
   Plane out = normal.clone();
-  bring_to_view_space(out, {.is_encoded = true}, camera);
+  bring_to_view_space(out, {.range = NormalRange::unsigned_values}, camera);
   return out;
 }
 
@@ -102,7 +102,7 @@ bool convert_depths(const ExrFile& file, const FileCameras& cameras, Survey& sur
   for (View& view : survey.frame.views) {
     assume_missing_camera(file, cameras, view, survey.frame);
     has_background |= has_named_background(file, view);
-    survey.conventions.take(convert_depth(file, cameras, view, survey.frame));
+    survey.conventions.take(convert_depth(file, cameras, view, survey.frame, survey.conventions.read_depth));
     view.planes.erase("alpha");
   }
   return has_background;
@@ -110,7 +110,7 @@ bool convert_depths(const ExrFile& file, const FileCameras& cameras, Survey& sur
 
 void settle_normals(const ExrFile& file, const View& view, const ViewSums& sums, Survey& survey) {
   const auto count_missing = [&](const NormalForm& form) {
-    return form.is_encoded ? sums.missing_where_encoded : sums.missing;
+    return form.range == NormalRange::signed_values ? sums.missing : sums.missing_where_encoded;
   };
   const auto form = find_normal_form(file, view, sums.samples, count_missing, survey.frame, survey.conventions.normals);
   survey.normal_forms[view.name] = form;

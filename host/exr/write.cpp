@@ -4,6 +4,7 @@
 #include <OpenEXR/ImfOutputFile.h>
 
 #include "base/lists.h"
+#include "exr/cryptomatte.h"
 #include "exr/stream.h"
 #include "exr/written_channels.h"
 #include "exr/written_header.h"
@@ -27,7 +28,7 @@ void check_frame(const Frame& frame) {
   }
 }
 
-/// Attributes that tell how the pixels of a part are stored, or which part it is.
+/// Attributes that tell how the pixels of a part are stored, or which part it is. Those of a Cryptomatte tell of channels that a copy lacks.
 const std::vector<std::string> of_storage = {
     "tiles",   "type",      "name", "chunkCount",          "version",
     "preview", "multiView", "view", "dwaCompressionLevel", "maxSamplesPerPixel"};
@@ -36,7 +37,7 @@ void take_attributes(const Imf::Header& from, Imf::Header& to) {
   for (auto attribute = from.begin(); attribute != from.end(); ++attribute) {
     const std::string name = attribute.name();
     const bool is_default = name.starts_with("screenWindow");
-    if (contains(of_storage, name) || (to.find(name) != to.end() && !is_default)) continue;
+    if (contains(of_storage, name) || is_of_cryptomatte(name) || (to.find(name) != to.end() && !is_default)) continue;
     to.insert(name, attribute.attribute());
   }
 }

@@ -9,7 +9,9 @@
 
 #include "base/file_ledger.h"
 #include "base/json_object.h"
+#include "base/lists.h"
 #include "camera/camera_search.h"
+#include "exr/image_names.h"
 #include "exr/read_words.h"
 #include "exr/writers_data.h"
 #include "gloam/error.h"
@@ -24,11 +26,12 @@ namespace fs = std::filesystem;
 /// Where the file of a plane may lie.
 struct PlanePlace {
   std::vector<std::pair<std::string, std::string>> replaced;
-  std::string ending;
+  std::vector<std::string> endings;  ///< in turn; "": as the depth's
 };
 
 struct Writer {
-  std::string name, depth;
+  std::string name;
+  std::vector<std::string> depth;
   DepthConvention convention = DepthConvention::automatic;
   std::optional<double> scale, fov;
   std::string calibration;
@@ -37,7 +40,7 @@ struct Writer {
 
 PlanePlace place_of(const JsonObject& object) {
   PlanePlace place;
-  place.ending = object.text_if("ending");
+  place.endings = object.texts_if("endings").value_or(std::vector<std::string>{""});
   for (const auto& pair : object.json().at("replace"))
     place.replaced.emplace_back(pair.at(0).get<std::string>(), pair.at(1).get<std::string>());
   return place;
@@ -49,7 +52,7 @@ const std::vector<Writer>& writers() {
     std::vector<Writer> list;
     for (const JsonObject& row : JsonObject(document, {"writers.json"}).objects("writers")) {
       row.check_keys({"name", "depth", "is", "scale", "fov", "calibration", "planes", "source"});
-      Writer writer{row.text("name"), row.text("depth")};
+      Writer writer{row.text("name"), row.texts("depth")};
       writer.convention = value_of(row.text("is"), "is", depth_words);
       writer.scale = row.number_if("scale");
       writer.fov = row.number_if("fov");
@@ -83,14 +86,16 @@ const Writer* writer_of(const fs::path& depth) {
   std::error_code unknown;
   const std::string path = fs::absolute(depth, unknown).generic_string();
   for (const Writer& writer : writers())
-    if (ends_as(path, path.size(), writer.depth, writer.depth.size())) return &writer;
+    for (const std::string& depth_file : writer.depth)
+      if (ends_as(path, path.size(), depth_file, depth_file.size())) return &writer;
   return nullptr;
 }
 
-/// A place where nothing else is replaced than in the last three names of a path.
-std::string with_replaced(const std::string& path, const PlanePlace& place) {
+/// A place where nothing else is replaced than in so many last names of a path.
+std::string with_replaced(const std::string& path, const PlanePlace& place, const std::string& ending, int last) {
   size_t first = path.size();
-  for (int names = 0; names < 3 && first != std::string::npos && first > 0; ++names) first = path.rfind('/', first - 1);
+  for (int count = 0; count < last && first != std::string::npos && first > 0; ++count)
+    first = path.rfind('/', first - 1);
   if (first == std::string::npos) first = 0;
   const std::string before = path.substr(0, first);
   std::string names = path.substr(first);
@@ -98,7 +103,7 @@ std::string with_replaced(const std::string& path, const PlanePlace& place) {
     for (size_t at = names.find(from); at != std::string::npos; at = names.find(from, at + to.size()))
       names.replace(at, from.size(), to);
   }
-  if (!place.ending.empty()) names = fs::path(names).replace_extension(place.ending).generic_string();
+  if (!ending.empty()) names = fs::path(names).replace_extension(ending).generic_string();
   return before + names;
 }
 
@@ -106,9 +111,14 @@ std::string with_replaced(const std::string& path, const PlanePlace& place) {
 std::optional<fs::path> file_of(const fs::path& depth, const std::vector<PlanePlace>& places) {
   std::error_code unknown;
   const std::string path = fs::absolute(depth, unknown).generic_string();
+  constexpr int most_names = 3;
   for (const PlanePlace& place : places) {
-    const fs::path file = with_replaced(path, place);
-    if (file != path && fs::is_regular_file(file, unknown)) return file;
+    for (const std::string& ending : place.endings) {
+      for (int last = 1; last <= most_names; ++last) {
+        const fs::path file = with_replaced(path, place, ending, last);
+        if (file != path && fs::is_regular_file(file, unknown)) return file;
+      }
+    }
   }
   return {};
 }
@@ -176,11 +186,33 @@ void take_calibration(const fs::path& file, const char* which, bool has_camera, 
                             .dump();
 }
 
+bool is_frame_file(const fs::path& path) { return is_image_file(path) || path.extension() == ".exr"; }
+
+/// Whether an EXR may be one plane and nothing else: it has one channel, or red, green and blue, and no name of another plane than depth.
+bool is_one_plane(const fs::path& path, long long most_pixels) {
+  ReadOptions options;
+  options.only_looks = options.unconverted = true;
+  options.most_pixels = most_pixels;
+  options.looks_beside = false;
+  const FrameFile file(path, options);
+  const std::vector<std::string> channels = file.all_channels();
+  const auto is_colour = [](const std::string& name) { return contains({"R", "G", "B", "A"}, name); };
+  const auto may_be_depth = [](const PlaneSource& source) {
+    return source.plane == "depth" || source.plane == "color" || source.plane == "alpha";
+  };
+  return std::all_of(file.planes().begin(), file.planes().end(), may_be_depth) &&
+         (channels.size() == 1 || std::all_of(channels.begin(), channels.end(), is_colour));
+}
+
 }  // namespace
 
 void take_writer(const fs::path& depth, ReadOptions& options, std::vector<std::string>& notes) {
-  const Writer* writer = writer_of(depth);
+  const Writer* writer = is_frame_file(depth) ? writer_of(depth) : nullptr;
+  const bool is_image = is_image_file(depth);
   if (!writer) return;
+  if (!is_image && (!options.looks_beside || options.channels.count("depth") || !fs::is_regular_file(depth) ||
+                    !is_one_plane(depth, options.most_pixels)))
+    return;
   std::vector<std::string> said;
   if (options.depth == DepthConvention::automatic && writer->convention != DepthConvention::automatic) {
     options.depth = writer->convention;
@@ -195,6 +227,7 @@ void take_writer(const fs::path& depth, ReadOptions& options, std::vector<std::s
       gives_camera && (options.fov_degrees || !options.camera_file.empty() || find_camera_file(depth));
   if (!has_camera && writer->fov) {
     options.fov_degrees = writer->fov;
+    options.fov_from = "default of the data set";
     said.push_back(option("fov", fmt::format("{:g}", *writer->fov)));
   }
   const fs::path calibration = depth.parent_path() / writer->calibration;
@@ -208,8 +241,10 @@ void take_writer(const fs::path& depth, ReadOptions& options, std::vector<std::s
     if (!file || options.channels.count(plane) || !options.plane_files.emplace(plane, *file).second) continue;
     planes.push_back(fmt::format("{} from {}", plane, (file->parent_path().filename() / file->filename()).string()));
   }
+  const bool is_found = !planes.empty() || !said.empty();
+  if (!is_image && !is_found && plane_in_file_name(depth) != "depth") return;
   options.plane_files.emplace("depth", depth);
-  if (planes.empty() && said.empty()) return;
+  if (!is_found) return;
   const std::string read = planes.empty() ? "" : enumerate(planes) + (said.empty() ? "" : ", ");
   notes.push_back(fmt::format("{}: named as by {}: {}{}", depth.filename().string(), writer->name, read,
                               said.empty() ? "" : fmt::format("{} taken", enumerate(said))));
@@ -226,7 +261,7 @@ std::string advice_on_folder(const fs::path& folder) {
        entry != fs::recursive_directory_iterator() && seen < most; entry.increment(unknown), ++seen) {
     if (unknown) break;
     if (entry.depth() >= deepest) entry.disable_recursion_pending();
-    if (!entry->is_regular_file(unknown) || !is_image_file(entry->path())) continue;
+    if (!entry->is_regular_file(unknown) || !is_frame_file(entry->path())) continue;
     const Writer* found = writer_of(entry->path());
     if (!found || (writer && found != writer)) continue;
     writer = found;

@@ -1,20 +1,28 @@
 #include "gloam/composite.h"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "base/lists.h"
+#include "frame/untouched.h"
 #include "gloam/error.h"
 
 namespace gloam {
 namespace {
 
-/// Calls `change(colour, effect)` for each pixel of a channel.
-template <typename Change>
-void change_pixels(Channel& colour, const Channel& effect, const Change& change) {
+void check_same_layout(const Channel& colour, const Channel& effect) {
   const Layout& layout = colour.layout();
   if (layout != effect.layout())
     throw Error("the colour is {} x {}, and the result {} x {}", layout.width, layout.height, effect.layout().width,
                 effect.layout().height);
+}
+
+/// Calls `change(colour, effect)` for each pixel of a channel.
+template <typename Change>
+void change_pixels(Channel& colour, const Channel& effect, const Change& change) {
+  check_same_layout(colour, effect);
+  const Layout& layout = colour.layout();
   for (int y = 0; y < layout.height; ++y) {
     float* to = colour.row(y);
     const float* from = effect.row(y);
@@ -22,11 +30,40 @@ void change_pixels(Channel& colour, const Channel& effect, const Change& change)
   }
 }
 
+double share_left(float open, double strength, double tint) {
+  return std::max(0.0, 1 - strength * (1 - double(open)) * (1 - tint));
+}
+
 void darken(Channel& colour, const Channel& ao, double strength, double tint) {
   change_pixels(colour, ao, [&](float& value, float open) {
-    const double share = std::max(0.0, 1 - strength * (1 - double(open)) * (1 - tint));
+    const double share = share_left(open, strength, tint);
     if (share != 1) value = float(value * share);
   });
+}
+
+/// Darkens a part of the colour. What would not be finite stays as it is.
+void darken_part(Channel& colour, const Channel& ao, const DarkenedLight& light, double strength, double tint) {
+  std::vector<float> part(size_t(colour.layout().width));
+  check_same_layout(colour, ao);
+  for (int y = 0; y < colour.layout().height; ++y) {
+    float* to = colour.row(y);
+    light.darkened(y, to, part.data());
+    for (int x = 0; x < colour.layout().width; ++x) {
+      const double darkened = double(part[size_t(x)]), share = share_left(ao.row(y)[x], strength, tint);
+      const float value = float(double(to[x]) - darkened + darkened * share);
+      if (share != 1 && darkened != 0 && std::isfinite(value)) to[x] = value;
+    }
+  }
+}
+
+/// A component of a view's colour: of what occlusion darkens.
+void darken(View& view, size_t component, const Channel& ao, const Compositing& how) {
+  Channel& colour = view.planes.at("color").channels[component];
+  const DarkenedLight light(view, component);
+  if (light.is_all())
+    darken(colour, ao, how.strength, how.tint[component]);
+  else
+    darken_part(colour, ao, light, how.strength, how.tint[component]);
 }
 
 void add(Channel& colour, const Channel& reflection, double strength) {
@@ -53,7 +90,7 @@ void composite(Frame& colour, const Frame& result, const std::string& plane, con
       if (plane == "reflection")
         add(color.channels[i], effect->channels[i], how.strength);
       else
-        darken(color.channels[i], effect->channels.front(), how.strength, how.tint[i]);
+        darken(view, i, effect->channels.front(), how);
     }
   }
 }

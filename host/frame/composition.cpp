@@ -5,6 +5,7 @@
 
 #include "base/lists.h"
 #include "base/words.h"
+#include "frame/untouched.h"
 #include "gloam/error.h"
 #include "gloam/option.h"
 
@@ -25,6 +26,9 @@ std::string ambient_unknown() {
   return "how much of the colour is ambient light is unknown: the frame has no 'ambient'; " + ways_to_ambient();
 }
 
+/// Whether what is darkened holds light of lamps and the sun too.
+bool holds_direct_light(Ambient ambient) { return ambient == Ambient::colour || ambient == Ambient::illumination; }
+
 /// What decides about the parts.
 struct Known {
   const Names& frame;
@@ -38,7 +42,8 @@ struct Known {
 Ambient ambient_of(const Names& frame, const ComposeOptions& options) {
   if (options.ambient) return Ambient::even_sky;
   if (contains(frame, "ambient")) return Ambient::plane;
-  return options.holds.ambient ? Ambient::colour : Ambient::unknown;
+  if (!options.holds.ambient) return Ambient::unknown;
+  return has_illumination(frame) ? Ambient::illumination : Ambient::colour;
 }
 
 // Why a part is not used; empty if it is.
@@ -53,7 +58,7 @@ std::string why_no_environment(const Known& known) {
   if (known.options.holds.ao)
     return "it takes the place of ambient light, and the colour's is occluded already: how much of it is there is "
            "unknown";
-  return known.ambient == Ambient::colour ? ambient_unknown() : "";
+  return holds_direct_light(known.ambient) ? ambient_unknown() : "";
 }
 
 bool takes_indirect(const Known& known) { return known.is_computed("indirect") && why_no_indirect(known).empty(); }
@@ -87,7 +92,7 @@ std::string why_no_reflection(const Known& known) {
 
 std::string why_no_contact(const Known& known) {
   if (known.options.holds.shadows) return "the colour holds shadows already";
-  return known.ambient == Ambient::colour ? ambient_unknown() : "";
+  return holds_direct_light(known.ambient) ? ambient_unknown() : "";
 }
 
 /// A part that a picture can be made of.
@@ -117,14 +122,16 @@ struct Row {
 
 /// How one channel is composed.
 struct Rules {
-  bool holds_ambient, is_ambient_colour;
+  bool holds_ambient;
+  Ambient ambient;
   float sky;  ///< of an even sky
 };
 
 /// Values of a row, small enough to stay in the fastest cache.
 struct Buffers {
-  std::vector<float> ambient, diffuse, added;
-  explicit Buffers(int width) : ambient(size_t(width)), diffuse(size_t(width)), added(size_t(width)) {}
+  std::vector<float> ambient, diffuse, added, untouched;
+  explicit Buffers(int width)
+      : ambient(size_t(width)), diffuse(size_t(width)), added(size_t(width)), untouched(size_t(width)) {}
 };
 
 void diffuse_albedo(const Row& row, int width, float* to) {
@@ -136,11 +143,14 @@ void diffuse_albedo(const Row& row, int width, float* to) {
   for (int x = 0; x < width; ++x) to[x] = row.albedo[x] * (1 - row.metallic[x]);
 }
 
-/// The colour's own ambient light is at most the colour.
-void ambient_light(const Row& row, const Rules& rules, const float* colour, const float* diffuse, int width,
-                   float* to) {
-  if (rules.is_ambient_colour)
+/// The colour's own ambient light is at most the colour, less the light that is left as it is. `to` holds illumination times albedo,
+/// where that is darkened.
+void ambient_light(const Row& row, const Rules& rules, const float* colour, const Buffers& of, int width, float* to) {
+  const float *diffuse = of.diffuse.data(), *untouched = of.untouched.data();
+  if (rules.ambient == Ambient::colour)
     std::copy_n(colour, width, to);
+  else if (rules.ambient == Ambient::illumination)
+    for (int x = 0; x < width; ++x) to[x] = std::max(to[x], 0.0f);
   else if (row.ambient)
     std::copy_n(row.ambient, width, to);
   else if (rules.sky > 0)
@@ -148,7 +158,7 @@ void ambient_light(const Row& row, const Rules& rules, const float* colour, cons
   else
     std::fill_n(to, width, 0.0f);
   if (!rules.holds_ambient) return;
-  for (int x = 0; x < width; ++x) to[x] = std::min(to[x], std::max(colour[x], 0.0f));
+  for (int x = 0; x < width; ++x) to[x] = std::min(to[x], std::max(colour[x] - untouched[x], 0.0f));
 }
 
 /// What the picture has in place of the colour's ambient light, less that light.
@@ -164,14 +174,15 @@ void change_ambient(const Row& row, const Rules& rules, const float* ambient, co
 }
 
 void add_light(const Row& row, const Rules& rules, const float* colour, const Buffers& of, int width, float* added) {
-  const float *ambient = of.ambient.data(), *diffuse = of.diffuse.data();
+  const float *ambient = of.ambient.data(), *diffuse = of.diffuse.data(), *untouched = of.untouched.data();
   const float held = rules.holds_ambient ? 1.0f : 0.0f;
   if (row.indirect)
     for (int x = 0; x < width; ++x) added[x] += diffuse[x] * row.indirect[x];
   if (row.reflection)
     for (int x = 0; x < width; ++x) added[x] += row.reflection[x];
   if (row.contact)
-    for (int x = 0; x < width; ++x) added[x] += (row.contact[x] - 1) * std::max(colour[x] - held * ambient[x], 0.0f);
+    for (int x = 0; x < width; ++x)
+      added[x] += (row.contact[x] - 1) * std::max(colour[x] - held * ambient[x] - untouched[x], 0.0f);
 }
 
 /// Two choices in turn, where one condition of two would keep the loop from being vectorised.
@@ -188,24 +199,15 @@ void leave_background(const float* depth, int width, float* added) {
   for (int x = 0; x < width; ++x) added[x] = depth[x] == background ? 0.0f : added[x];
 }
 
+/// `buffers` hold the untouched light, and as ambient light illumination times albedo, where that is darkened.
 void compose_row(const Row& row, const Rules& rules, int width, Buffers& buffers, float* colour) {
   float *ambient = buffers.ambient.data(), *diffuse = buffers.diffuse.data(), *added = buffers.added.data();
   diffuse_albedo(row, width, diffuse);
-  ambient_light(row, rules, colour, diffuse, width, ambient);
+  ambient_light(row, rules, colour, buffers, width, ambient);
   change_ambient(row, rules, ambient, diffuse, width, added);
   add_light(row, rules, colour, buffers, width, added);
   if (row.depth) leave_background(row.depth, width, added);
   take_sum(added, width, colour);
-}
-
-/// The channel of a plane for a component of colour; planes of one component have it for all. Null without the plane.
-const Channel* channel_of(const Plane* plane, size_t component, const Layout& layout) {
-  if (!plane) return nullptr;
-  const Channel& channel = plane->channels[plane->channels.size() == 1 ? 0 : component];
-  if (channel.layout().width != layout.width || channel.layout().height != layout.height)
-    throw Error("color is {} x {}, and {} {} x {}", layout.width, layout.height, plane->name, channel.layout().width,
-                channel.layout().height);
-  return &channel;
 }
 
 /// The channels that a component of colour is composed of, in the order of `Row`.
@@ -221,9 +223,9 @@ struct Channels {
 Channels channels_of(const View& view, const View& computed, const Composition& composition, size_t component) {
   const Layout& layout = view.planes.at("color").channels.front().layout();
   const auto part = [&](const char* name) {
-    return composition.uses(name) ? channel_of(computed.find(name), component, layout) : nullptr;
+    return composition.uses(name) ? channel_for(computed.find(name), component, layout) : nullptr;
   };
-  const auto own = [&](const char* name) { return channel_of(view.find(name), component, layout); };
+  const auto own = [&](const char* name) { return channel_for(view.find(name), component, layout); };
   return {part(composition.uses("bounces") ? "bounces" : "ao"),
           part("environment"),
           part("indirect"),
@@ -233,6 +235,21 @@ Channels channels_of(const View& view, const View& computed, const Composition& 
           own("albedo"),
           own("metallic"),
           own("depth")};
+}
+
+/// What occlusion darkens of the colour, and what it leaves alone.
+Names notes_on_darkening(const Composition& composition) {
+  const bool darkens = composition.uses("ao") || composition.uses("bounces");
+  Names notes;
+  if (darkens && composition.ambient == Ambient::colour)
+    notes.push_back(fmt::format(
+        "the frame has no 'ambient', so ambient occlusion darkens all of its colour{}, light of the sun too; {}",
+        composition.untouched.empty() ? "" : " but " + enumerate(composition.untouched), ways_to_ambient()));
+  if (darkens && composition.ambient == Ambient::illumination)
+    notes.push_back(note_on_illumination(composition.options.names_in_file));
+  if (!composition.untouched.empty() && (darkens || composition.uses("contact")))
+    notes.push_back(note_on_untouched(composition.untouched, composition.options.names_in_file));
+  return notes;
 }
 
 }  // namespace
@@ -252,7 +269,11 @@ const Names& part_planes() {
 }
 
 const Names& planes_to_compose() {
-  static const Names names = {"color", "ambient", "albedo", "metallic", "depth"};
+  static const Names names = [] {
+    Names all = {"color", "ambient", "albedo", "metallic", "depth"};
+    add_new(all, planes_of_darkened_light());
+    return all;
+  }();
   return names;
 }
 
@@ -264,17 +285,14 @@ Composition composition_of(const Names& frame, const Names& computed, const Comp
   Composition composition;
   composition.ambient = ambient_of(frame, options);
   composition.options = options;
+  composition.untouched = untouched_of(frame);
   const Known known{frame, computed, options, composition.ambient};
   for (const PartRule& rule : rules()) {
     if (!known.is_computed(rule.plane)) continue;
     const std::string why_not = rule.why_not(known);
     composition.parts.push_back({rule.plane, why_not.empty(), why_not.empty() ? rule.how : why_not});
   }
-  const bool darkens = composition.uses("ao") || composition.uses("bounces");
-  if (darkens && composition.ambient == Ambient::colour)
-    composition.notes.push_back(
-        "the frame has no 'ambient', so ambient occlusion darkens all of its colour, light of the sun too; " +
-        ways_to_ambient());
+  add_new(composition.notes, notes_on_darkening(composition));
   if (!options.holds.ambient && composition.ambient != Ambient::unknown)
     composition.notes.push_back("the colour holds no ambient light, so the picture gets it beside the colour");
   return composition;
@@ -293,6 +311,7 @@ ColorHolds holds_of_picture(const Composition& composition) {
 std::map<std::string, std::string> attributes_of(const Composition& composition) {
   static const Choices<Ambient> words = {{"plane", Ambient::plane},
                                          {"even sky", Ambient::even_sky},
+                                         {"illumination", Ambient::illumination},
                                          {"all of color", Ambient::colour},
                                          {"unknown", Ambient::unknown}};
   Names used;
@@ -311,10 +330,14 @@ void compose(View& colour, const View& computed, const Composition& composition)
   Buffers buffers(layout.width);
   for (size_t i = 0; i < color.channels.size(); ++i) {
     const Channels channels = channels_of(colour, computed, composition, i);
-    const Rules rules{composition.options.holds.ambient, composition.ambient == Ambient::colour,
+    const DarkenedLight light(colour, i);
+    const Rules rules{composition.options.holds.ambient, composition.ambient,
                       composition.ambient == Ambient::even_sky ? float((*composition.options.ambient)[i]) : 0.0f};
-    for (int y = 0; y < layout.height; ++y)
+    for (int y = 0; y < layout.height; ++y) {
+      light.untouched(y, buffers.untouched.data());
+      if (rules.ambient == Ambient::illumination) light.illuminated(y, buffers.ambient.data());
       compose_row(channels.row(y), rules, layout.width, buffers, color.channels[i].row(y));
+    }
   }
 }
 

@@ -7,7 +7,7 @@ function renderHead() {
       'truth, which is the same light traced by rays. Error is the distance from that truth (RMSE; 0 is perfect), SSIM and FLIP ' +
       'say how alike the two look, and time is a multiple of what HBAO+ at medium, a technique that many games use, takes on the ' +
       'same machine; what submitters state of their own time is set apart. A row has means only if it was measured on all items ' +
-      'chosen below, so that nothing is won by leaving out hard ones: click a heading to sort, and a row for its pictures, ' +
+      'chosen above, so that nothing is won by leaving out hard ones: click a heading to sort, and a row for its pictures, ' +
       'figures and command.';
   const {set} = boardNow(), files = data.files.filter((file) => JSON.stringify(file.set) === JSON.stringify(set));
   const facts = [
@@ -85,6 +85,7 @@ function renderFilters() {
       checked: state[field],
       onchange: () => {
         state[field] = input.checked;
+        renderCosts();
         renderMethods();
         renderMethod();
       }

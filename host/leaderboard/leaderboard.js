@@ -20,6 +20,7 @@ function render() {
   renderHead();
   renderChoices();
   renderFilters();
+  renderCosts();
   renderMethods();
   renderMethod();
 }
@@ -31,7 +32,9 @@ function start() {
   state.picked = bestEntry();
   renderFiles();
   render();
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', renderMethod);
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => (renderCosts(), renderMethod()));
+  addEventListener('resize', renderCosts);
+  addEventListener('scroll', () => (byId('hover').hidden = true), {passive: true});
 }
 
 start();

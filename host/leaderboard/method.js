@@ -2,6 +2,8 @@
 
 function pick(entry) {
   state.picked = entry;
+  const view = byId('scatter').view;
+  if (view) view.signal('picked', String(entry)).runAsync();
   renderMethods();
   renderMethod();
 }
@@ -123,11 +125,14 @@ function renderCommands(entry, row) {
 
 function renderMethod() {
   const row = is(state.picked) ? itemRow(state.picked) : null;
-  byId('method').hidden = !row;
+  byId('method').hidden = byId('items').hidden = !row;
   if (!row) return;
   const entry = tableNow().entries[state.picked], item = tableNow().items[row.item];
   state.item = row.item;
   byId('method-name').replaceChildren(titleOf(entry) + ' ', element('span', {class: 'scene-name'}, 'on ' + item.name));
+  byId('items-name').textContent = titleOf(entry) + ' on each item';
+  const hasPictures = tableNow().rows.some((each) => is(each.picture));
+  byId('viewer').hidden = byId('size-switch').hidden = !hasPictures;
   byId('size-switch')
       .replaceChildren(...[[false, 'fit'], [true, 'pixel by pixel']].map(
           ([fullSize, text]) => pressButton(text, state.pictures.fullSize === fullSize, () => {

@@ -45,21 +45,13 @@ Json json(const Source& file) {
           {"command", m.command}};
 }
 
-/// "depth", "peeled layers", ...: what a renderer has to give.
-std::string reads_words(const report::Reads& reads) {
-  if (reads_peeled_layers(reads)) return "all layers";
-  if (!std::all_of(reads.depths.begin(), reads.depths.end(), [](const std::string& d) { return d == "depth"; }))
-    return "some layers";
-  return reads.views > 1 ? "two views" : "one layer";
-}
-
 Json json(const Entry& entry) {
   Json made = {{"technique", entry.technique},
                {"preset", entry.preset},
                {"variant", entry.variant},
                {"device", entry.device},
                {"driver", entry.driver},
-               {"reads", entry.is_submitted ? Json(nullptr) : Json(reads_words(entry.reads))},
+               {"reads", entry.is_submitted ? Json(nullptr) : Json(in_words(entry.reads))},
                {"held", nullptr},
                {"cases", nullptr},
                {"submitted", nullptr}};

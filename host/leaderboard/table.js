@@ -112,13 +112,13 @@ function renderMethods() {
   const hadFocus = place.contains(document.activeElement) && document.activeElement.tagName === 'TR';
   sortedTable(place, columns, rows, {
     isPicked: (row) => row.entry === state.picked,
-    pick: (row) => pick(row.entry),
+    pick: (row) => {
+      pick(row.entry);
+      byId('method').scrollIntoView({block: 'nearest'});
+    },
   });
   if (hadFocus && place.querySelector('tr.is-picked')) place.querySelector('tr.is-picked').focus({preventScroll: true});
   const partial = rows.filter((row) => !isWhole(row)).length, hidden = choiceNow().rows.length - rows.length;
-  const choice = choiceNow(), count = choice.items.length;
-  byId('choice-name').textContent = 'on ' + (count === 1 ? tableNow().items[choice.items[0]].name :
-      choice.what === 'all' ? `all ${count} items` : `${choiceTitle(choice)}, ${count} items`);
   const remarks = ['A star marks the best of each column.'];
   if (partial)
     remarks.push(

@@ -1,6 +1,7 @@
 // Recognises background depths and sets them to +inf.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -12,6 +13,9 @@ namespace gloam {
 inline constexpr float farthest_depth = 1e10f;
 /// Smaller depths count as background: they would turn denormal in a product. The bound is far below the unit of any scene.
 inline constexpr float nearest_depth = 1e-30f;
+
+/// Whether a value is no such mark of either sign, NaN or infinity.
+inline bool is_no_mark(float value) { return std::abs(value) < farthest_depth; }
 
 /// Values that mean background besides infinities, NaN, 0 and negative numbers. A value from the user replaces the rule for 1e10.
 struct Background {

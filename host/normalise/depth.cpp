@@ -7,9 +7,10 @@
 #include "gloam/error.h"
 #include "gloam/option.h"
 #include "normalise/background.h"
+#include "normalise/depth_by_normals.h"
+#include "normalise/depth_encoding.h"
 #include "normalise/each_row.h"
 #include "normalise/stored_depth.h"
-#include "normalise/told_depth.h"
 
 namespace gloam {
 
@@ -181,16 +182,74 @@ std::string window_to_depth(Channel& depth, const Channel* alpha, const Camera& 
   return reversed ? "reversed" : "ndc";
 }
 
+/// How the normals beside a depth see whole numbers that wrap; nothing without normals, or where an offset or a reciprocal makes lengths.
+VoteOnTurns vote_of(const StatedDepth& stated, const Window& window, const Camera& camera,
+                    const NormalsBeside* normals) {
+  const bool is_ray = stated.convention == DepthConvention::ray;
+  const bool is_length =
+      is_ray || stated.convention == DepthConvention::z || stated.convention == DepthConvention::automatic;
+  if (!normals || !is_length || stated.offset || stated.scale.value_or(1) < 0) return {};
+  return [=, &window, &camera](const Channel& depth) {
+    const DepthRows rows = rows_of(depth);
+    return votes_on_turns(values_of(rows), is_ray ? DepthMeaning::along_ray : DepthMeaning::planar, window, camera,
+                          *normals);
+  };
+}
+
+/// Undoes what is stated of the encoding, or whole numbers that are seen to wrap around. Returns whether there is anything new to `stated`,
+/// whose encoding is then one that is undone.
+bool settle_encoding(Channel& depth, StatedDepth& stated, const VoteOnTurns& vote, std::vector<std::string>& assumed) {
+  if (stated.encoding && *stated.encoding == DepthEncoding()) return false;
+  if (stated.encoding) {
+    check(*stated.encoding, depth, option("depth-encoding"));
+    undo(*stated.encoding, depth, vote);
+    stated.encoding = DepthEncoding();
+    return true;
+  }
+  const Wraps wraps = stated.convention == DepthConvention::inverse ? Wraps() : count_wraps(depth);
+  const double by_normals = !wraps.is_sure && vote && may_wrap(depth) ? share_of_wrapped(vote(depth)) : 0;
+  if (by_normals > 0) {
+    undo({.wrapped = true}, depth, vote);
+    assumed.push_back(fmt::format(
+        "depth: the normals of {:.1f} % of the samples fit whole numbers that went on past 65535 at 0: they are taken "
+        "to wrap around, and are unwrapped; {} states that, {} says otherwise",
+        100 * by_normals, option("depth-encoding", "wrapped"), option("depth-encoding", "plain")));
+    stated.encoding = DepthEncoding();
+    return true;
+  }
+  if (wraps.neighbours == 0) return false;
+  if (!wraps.is_sure) {
+    assumed.push_back(
+        fmt::format("depth: its whole numbers may wrap around: {} neighbours go on past 65535 at 0; {} unwraps them",
+                    wraps.neighbours, option("depth-encoding", "wrapped")));
+    return false;
+  }
+  undo({.wrapped = true}, depth, vote);
+  assumed.push_back(fmt::format(
+      "depth: {} neighbours go on past 65535 at 0: the whole numbers are taken to wrap around, and are unwrapped; {} "
+      "states that, {} says otherwise",
+      wraps.neighbours, option("depth-encoding", "wrapped"), option("depth-encoding", "plain")));
+  stated.encoding = DepthEncoding();
+  return true;
+}
+
 }  // namespace
 
 std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& window, const Camera& camera,
-                          const StatedDepth& stated, std::vector<std::string>& assumed) {
+                          const StatedDepth& stated, std::vector<std::string>& assumed, const NormalsBeside* normals,
+                          FoundDepth* told) {
   if (camera.slits && stated.convention != DepthConvention::automatic && stated.convention != DepthConvention::z)
     throw UsageError(
         "{} ray, ndc, reversed and inverse need a single centre of projection; the depth of a display's module is z",
         option("depth"));
   if (stated.scale && !(*stated.scale != 0))
     throw UsageError("{}: every depth would be the same; any number but 0 is allowed", option("depth-scale", "0"));
+  StatedDepth decoded = stated;
+  if (settle_encoding(depth, decoded, vote_of(stated, window, camera, normals), assumed)) {
+    const std::string convention = to_view_depth(depth, alpha, window, camera, decoded, assumed, normals, told);
+    if (told && !stated.encoding) *told = {};  // other frames may wrap elsewhere, or not at all
+    return convention;
+  }
   if (is_window_depth(stated.convention)) return window_to_depth(depth, alpha, camera, stated, assumed);
 
   const std::optional<double> far = stated.far ? stated.far : camera.far;
@@ -203,8 +262,9 @@ std::string to_view_depth(Channel& depth, const Channel* alpha, const Window& wi
       stated.background.has_value(), "; " + option("background") + " says otherwise");
   if (stated.convention == DepthConvention::automatic && !is_shifted) {
     std::vector<std::string> notes;
-    const StatedDepth told = told_by_planes(depth, found, window, camera, stated, notes);
-    const std::string convention = to_view_depth(depth, alpha, window, camera, told, assumed);
+    const ToldDepth read = told_by_surfaces(depth, found, window, camera, stated, normals, notes);
+    const std::string convention = to_view_depth(depth, alpha, window, camera, read.read, assumed);
+    if (told) *told = {read.read, read.is_told, notes};
     assumed.insert(assumed.end(), notes.begin(), notes.end());
     return convention;
   }

@@ -1,6 +1,7 @@
 // In which convention normals are stored: what is stated of it, and what the depth shows.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,10 +10,10 @@
 
 namespace gloam {
 
-/// The convention of normals, settled.
+/// The convention of normals, settled: nothing in it is `automatic`.
 struct NormalForm {
   NormalSpace space = NormalSpace::view;
-  bool is_encoded = false;  ///< stored as 0.5 + 0.5 n
+  NormalRange range = NormalRange::signed_values;
   NormalAxes axes = plain_axes;
   bool operator==(const NormalForm&) const = default;
 };
@@ -40,6 +41,16 @@ NormalForm plain_form(const NormalConvention& stated);
 /// normals are `view` if they agree as view-space normals do (0.9; a world turned little reaches 0.86), else `world`.
 NormalForm find_form(const std::vector<NormalPair>& pairs, const std::optional<Pose>& pose, const StatedNormals& stated,
                      std::vector<std::string>& notes);
+
+/// How far a convention is from the plain one.
+double departure_of(const NormalForm& form);
+
+/// The convention in which the pairs agree best, of those that nothing stated rules out; none if it rules out all.
+std::optional<NormalForm> best_agreeing_form(const std::vector<NormalPair>& pairs, const std::optional<Pose>& pose,
+                                             const NormalConvention& stated);
+
+/// The mean cosine between the normals, read in that convention, and those of the depth.
+double agreement_of(const std::vector<NormalPair>& pairs, const NormalForm& form, const std::optional<Pose>& pose);
 
 /// Whether the normals fit no convention, of which `form` is the best: they agree poorly with the depth, and their lengths
 /// are neither 1 nor alike.

@@ -24,6 +24,12 @@ class NormalSamples {
   /// Takes the samples of an array, three values for each pixel.
   void take(const float* values);
 
+  struct Sample {
+    int x, y;
+    glm::dvec3 normal;  ///< as stored; NaN until taken
+  };
+  const std::vector<Sample>& all() const { return samples_; }
+
   /// The planar depth of a pixel; infinite where there is no surface.
   using DepthAt = std::function<float(int x, int y)>;
   /// The samples on smooth surfaces: beside an edge the depth tells no normal.
@@ -31,10 +37,6 @@ class NormalSamples {
   std::vector<NormalPair> pairs(const Channel& depth, const Window& window, const Camera& camera) const;
 
  private:
-  struct Sample {
-    int x, y;
-    glm::dvec3 normal;  ///< NaN until taken
-  };
   Layout image_;
   std::vector<Sample> samples_;
 };

@@ -5,6 +5,7 @@
 #include <glm/mat3x3.hpp>
 #include <limits>
 
+#include "base/srgb.h"
 #include "gloam/error.h"
 #include "normalise/each_row.h"
 
@@ -16,9 +17,11 @@ namespace {
 constexpr float most_of_none = 0.02f * 0.02f;
 
 /// Normals from 0 to 1. A pixel that nothing was written to is 0, which would be a direction.
-void decode_row(float* x, float* y, float* z, int width) {
+void decode_row(float* x, float* y, float* z, int width, bool has_curve) {
   for (int i = 0; i < width; ++i) {
     const bool is_empty = (x[i] == 0) & (y[i] == 0) & (z[i] == 0);
+    if (has_curve)
+      for (float* component : {x + i, y + i, z + i}) *component = float(linear_of_srgb(double(*component)));
     const float a = 2 * x[i] - 1, b = 2 * y[i] - 1, c = 2 * z[i] - 1;
     const bool is_none = is_empty | (a * a + b * b + c * c < most_of_none);
     x[i] = is_none ? 0 : a;
@@ -46,7 +49,7 @@ glm::mat3 turn_of(const NormalForm& form, const Camera& camera) {
 }  // namespace
 
 void bring_to_view_space(float* x, float* y, float* z, int width, const NormalForm& form, const Camera& camera) {
-  if (form.is_encoded) decode_row(x, y, z, width);
+  if (form.range != NormalRange::signed_values) decode_row(x, y, z, width, form.range == NormalRange::srgb_values);
   if (form.space == NormalSpace::world || form.axes != plain_axes) turn_row(x, y, z, width, turn_of(form, camera));
 }
 

@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "base/golden_section.h"
+
 namespace gloam {
 namespace {
 
@@ -110,24 +112,20 @@ bool take_values(const DepthRows& depth, const Background& background, int x, in
   return true;
 }
 
+/// Whether whole numbers have so few steps in a segment that rounding bends it, and a pole of some value straightens it by chance.
+bool are_coarse(const Values& values, int count) {
+  constexpr double fewest_steps = 1500;
+  const auto is_whole = [](double value) { return value == std::floor(value); };
+  if (!std::all_of(values.begin(), values.begin() + count, is_whole)) return false;
+  const auto [least, most] = std::minmax_element(values.begin(), values.begin() + count);
+  return *most - *least < fewest_steps;
+}
+
 /// How far segments bend if distances are proportional to how far a value is from the pole.
 double bend_for_pole(const Values& values, int count, double pole) {
   Values inverse;
   for (int i = 0; i < count; ++i) inverse[size_t(i)] = 1 / (values[size_t(i)] - pole);
   return bend_of(inverse, count);
-}
-
-/// Poles beside the values, at shares of their range from 0.02 to 30; the first stands for none, where the values themselves are straight.
-std::vector<double> poles_beside(double low, double high) {
-  constexpr int on_a_side = 28;
-  constexpr double nearest = 0.02, farthest = 30;
-  std::vector<double> poles = {std::numeric_limits<double>::infinity()};
-  for (int i = 0; i < on_a_side; ++i) {
-    const double away = (high - low) * nearest * std::pow(farthest / nearest, i / (on_a_side - 1.0));
-    poles.push_back(low - away);
-    poles.push_back(high + away);
-  }
-  return poles;
 }
 
 double bend_for(const Values& values, int count, double pole) {
@@ -142,19 +140,21 @@ double refined(const std::vector<Values>& segments, int count, double first, dou
     std::nth_element(bends.begin(), bends.begin() + std::ptrdiff_t(bends.size() / 2), bends.end());
     return bends[bends.size() / 2];
   };
-  constexpr double golden = 0.6180339887498949;
-  constexpr int steps = 30;
-  for (int i = 0; i < steps; ++i) {
-    const double a = last - golden * (last - first), b = first + golden * (last - first);
-    if (bend(a) < bend(b))
-      last = b;
-    else
-      first = a;
-  }
-  return 0.5 * (first + last);
+  return least_between(first, last, 30, bend);
 }
 
 }  // namespace
+
+std::vector<double> poles_beside(double low, double high, const Poles& poles) {
+  std::vector<double> found;
+  for (int i = 0; i < poles.on_a_side; ++i) {
+    const double away =
+        (high - low) * poles.nearest * std::pow(poles.farthest / poles.nearest, i / (poles.on_a_side - 1.0));
+    found.push_back(low - away);
+    found.push_back(high + away);
+  }
+  return found;
+}
 
 std::optional<LinearGrey> linear_grey_of(const DepthRows& depth, const Background& background) {
   constexpr int most_of_grey = 2000;
@@ -170,6 +170,7 @@ std::optional<LinearGrey> linear_grey_of(const DepthRows& depth, const Backgroun
   for (const Segment& segment : segments_of(depth.width, depth.height, length, most_of_grey)) {
     Values values;
     if (!take_values(depth, background, segment.x, segment.y, segment.walk, values)) continue;
+    if (are_coarse(values, length)) continue;
     segments.push_back({values, segment.walk.step_y == 1});
     all.push_back(values.front());
   }
@@ -181,7 +182,10 @@ std::optional<LinearGrey> linear_grey_of(const DepthRows& depth, const Backgroun
     return !std::all_of(piece.values.begin(), piece.values.begin() + length, is_between);
   });
   if (!(high > low)) return {};
-  const std::vector<double> poles = poles_beside(low, high);
+  // The first stands for none, where the values themselves are straight.
+  std::vector<double> poles = {std::numeric_limits<double>::infinity()};
+  for (const double pole : poles_beside(low, high, {.on_a_side = 28, .nearest = 0.02, .farthest = 30}))
+    poles.push_back(pole);
   std::vector<std::vector<double>> bends(segments.size());
 #pragma omp parallel for schedule(dynamic, 16)
   for (size_t i = 0; i < segments.size(); ++i)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "gloam/camera.h"
 #include "gloam/frame.h"
@@ -37,12 +38,19 @@ Straightness straightness_of(const DepthRows& depth, float sign, const Backgroun
 struct LinearGrey {
   double pole =
       0;  ///< the value at distance 0: the distance is proportional to how far a value is from there; infinite: 1 / distance is
-      ///< linear in the values
+          ///< linear in the values
   bool is_both_ways = false;        ///< rows and columns speak for it
   bool is_above = false;            ///< all values: larger ones are nearer
   bool is_zero = false;             ///< as good as: the values are proportional to the distance
   long long segments = 0, all = 0;  ///< that speak for it, of those that speak at all
 };
+
+/// Values to try at which a distance is 0 or infinite, beside those that are stored, at shares of their range.
+struct Poles {
+  int on_a_side = 2;
+  double nearest = 0, farthest = 0;
+};
+std::vector<double> poles_beside(double low, double high, const Poles& poles);
 
 /// Whether plane surfaces are plane by 1/value, and less so by 1/(value - pole) with poles that lie a little beside 0.
 bool is_proportional_to_distance(const DepthRows& depth, const Background& background);

@@ -7,6 +7,7 @@
 #include "gloam/option.h"
 #include "normalise/depth.h"
 #include "normalise/normals.h"
+#include "normalise/told_depth.h"
 
 namespace gloam {
 
@@ -37,6 +38,14 @@ StoredSurfaces look_at_surfaces(const DepthRows& depth, const NormalSamples* nor
   found.normals = find_form(pairs, camera.pose, {stated.normals, "what is stated of them", true}, found.notes);
   found.are_normals_used = states_anything(stated.normals) || !fit_no_convention(pairs, found.normals, camera.pose);
   if (!found.are_normals_used) found.notes.back() += "; they are not used, and made from the depth";
+  // A second look takes a twentieth of a second; whoever states the depth does without.
+  constexpr double good_agreement = 0.99;
+  const bool is_settled = pairs.empty() || agreement_of(pairs, found.normals, camera.pose) >= good_agreement;
+  if (stated.depth.convention == DepthConvention::automatic && !is_settled) {
+    const std::string note =
+        note_on_contradicted_planar(depth, found.depth, window, camera, {*normals, stated.normals});
+    if (!note.empty()) add_new(found.notes, note);
+  }
   return found;
 }
 

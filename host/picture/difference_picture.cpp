@@ -71,7 +71,7 @@ void draw_title(Sheet& sheet, const Differences& d, const DifferencePicture& opt
   put_text(sheet.canvas, title, {sheet.margin(), sheet.px(38)}, style);
   const long long pixels = std::count_if(d.foreground.begin(), d.foreground.end(), [](auto m) { return m != 0; });
   const long long all = static_cast<long long>(d.foreground.size());
-  std::string facts = fmt::format("{}, {} x {} pixels", ascii(d.test.name), d.width, d.height);
+  std::string facts = fmt::format("{}, {} x {} pixels", drawable(d.test.name), d.width, d.height);
   if (pixels < all)
     facts += fmt::format("; {} % background (hatched) does not count",
                          fmt::format("{:.3g}", 100.0 * double(all - pixels) / double(all)));

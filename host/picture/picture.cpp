@@ -15,8 +15,10 @@
 #include "base/files.h"
 #include "base/memory.h"
 #include "base/srgb.h"
+#include "base/words.h"
 #include "gloam/error.h"
 #include "gloam/planes.h"
+#include "picture/letters.h"
 
 namespace gloam {
 namespace {
@@ -83,22 +85,19 @@ cv::Mat colour_image(const Plane& plane) {
   return image;
 }
 
-/// Hershey strokes drawn this many times larger and averaged down have soft edges and any stroke width.
-constexpr int oversampling = 4;
-
-double font_scale(const TextStyle& style) { return style.size * oversampling / 21; }
-int stroke(const TextStyle& style) {
-  return std::max(1, cvRound(style.size * oversampling * (style.bold ? 0.19 : 0.115)));
+/// Of text in UTF-8.
+std::u32string characters_of(std::string_view text) {
+  std::u32string characters;
+  for (; !text.empty(); text.remove_prefix(first_character(text).length)) characters += first_character(text).code;
+  return characters;
 }
 
 /// Share of each pixel that the text covers, with a border of `pad` pixels; the baseline is at `baseline`.
 cv::Mat text_coverage(const std::string& text, const TextStyle& style, int pad, int baseline) {
   const int width = int(text_width(text, style)) + 1 + 2 * pad, height = baseline + int(style.size) + pad;
-  cv::Mat large(height * oversampling, width * oversampling, CV_8UC1, cv::Scalar(0)), small;
-  cv::putText(large, text, cv::Point(pad, baseline) * oversampling, cv::FONT_HERSHEY_SIMPLEX, font_scale(style),
-              cv::Scalar(255), stroke(style), cv::LINE_AA);
-  cv::resize(large, small, cv::Size(width, height), 0, 0, cv::INTER_AREA);
-  return small;
+  cv::Mat coverage(height, width, CV_8UC1, cv::Scalar(0));
+  letters().draw(coverage, characters_of(text), {pad, baseline}, style.size, style.bold);
+  return coverage;
 }
 
 void blend(cv::Mat& canvas, const cv::Mat& coverage, cv::Point corner, const cv::Scalar& colour) {
@@ -184,8 +183,7 @@ cv::Mat read_png(const std::filesystem::path& path) {
 }
 
 double text_width(const std::string& text, const TextStyle& style) {
-  const cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, font_scale(style), stroke(style), nullptr);
-  return double(size.width) / oversampling;
+  return letters().width(characters_of(text), style.size, style.bold);
 }
 
 void put_text(cv::Mat& canvas, const std::string& text, cv::Point at, const TextStyle& style, Align align) {
@@ -196,24 +194,27 @@ void put_text(cv::Mat& canvas, const std::string& text, cv::Point at, const Text
   blend(canvas, text_coverage(text, style, pad, baseline), at - cv::Point(shift + pad, baseline), style.colour);
 }
 
-std::string ascii(const std::string& text) {
+std::string drawable(std::string_view text) {
   std::string out;
-  for (const char c : text) {
-    const unsigned char byte = static_cast<unsigned char>(c);
-    if (byte >= 32 && byte < 127)
-      out += c;
-    else if (byte < 128 || byte >= 192)
-      out += '?';  // 128 to 191 continue a character of UTF-8
+  while (!text.empty()) {
+    const auto [code, length] = first_character(text);
+    const bool is_character = code != 0xfffd && letters().has(code);
+    out += is_character ? text.substr(0, length) : "?";
+    text.remove_prefix(length);
   }
   return out;
 }
 
 std::string shortened(const std::string& text, double width, const TextStyle& style) {
-  const std::string whole = ascii(text);
-  const size_t most = std::min(whole.size(), size_t(4 * width / style.size));  // no letter is that narrow
-  if (most == whole.size() && text_width(whole, style) <= width) return whole;
+  const std::string whole = drawable(text);
+  std::vector<size_t> starts;
+  for (size_t at = 0; at < whole.size(); at += first_character(std::string_view(whole).substr(at)).length)
+    starts.push_back(at);
+  const size_t all = starts.size(), most = std::min(all, size_t(4 * width / style.size));  // no letter is that narrow
+  starts.push_back(whole.size());
+  if (most == all && text_width(whole, style) <= width) return whole;
   for (size_t keep = most; keep > 1; --keep) {
-    const std::string cut = whole.substr(0, keep - keep / 2) + "..." + whole.substr(whole.size() - keep / 2);
+    const std::string cut = whole.substr(0, starts[keep - keep / 2]) + "..." + whole.substr(starts[all - keep / 2]);
     if (text_width(cut, style) <= width) return cut;
   }
   return "...";

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <string>
+#include <string_view>
 
 #include "gloam/frame.h"
 
@@ -55,10 +56,10 @@ double text_width(const std::string& text, const TextStyle& style);
 void put_text(cv::Mat& canvas, const std::string& text, cv::Point at, const TextStyle& style,
               Align align = Align::left);
 
-/// The font holds ASCII only: each other character becomes one '?'.
-std::string ascii(const std::string& text);
+/// The text with a '?' for each character that the font does not have, and for each byte that is not UTF-8.
+std::string drawable(std::string_view text);
 
-/// The text in ASCII, without its middle if it is wider than `width`: start and end of a file name matter most.
+/// The text as it can be drawn, without its middle if it is wider than `width`: start and end of a file name matter most.
 std::string shortened(const std::string& text, double width, const TextStyle& style);
 
 // --- Panels: images on the paper

@@ -109,7 +109,7 @@ void draw_chart(cv::Mat& canvas, const SequencePlot& plot, const SequenceChart& 
   }
   draw_values_axis(canvas, area);
   draw_frames_axis(canvas, area);
-  put_text(canvas, ascii(chart.title), {sheet_margin, area.y0 - 16}, strong_style);
+  put_text(canvas, drawable(chart.title), {sheet_margin, area.y0 - 16}, strong_style);
   draw_keys(canvas, area, chart);
   for (size_t i = 0; i < chart.curves.size(); ++i)
     draw_curve(canvas, area, plot.frames, chart.curves[i], curve_inks[i % curve_inks.size()]);

@@ -15,9 +15,9 @@ std::vector<std::string> pieces_of(const std::string& text) {
   for (std::string word; words >> word;) {
     const bool is_unit = word.rfind('%', 0) == 0 || word.rfind("ms", 0) == 0;
     if (is_unit && !pieces.empty() && ends_in_digit(pieces.back()))
-      pieces.back() += " " + ascii(word);
+      pieces.back() += " " + drawable(word);
     else
-      pieces.push_back(ascii(word));
+      pieces.push_back(drawable(word));
   }
   return pieces;
 }
@@ -59,7 +59,7 @@ void put_block(cv::Mat& canvas, const TextBlock& block, cv::Point corner) {
 
 int natural_width(const std::vector<Paragraph>& paragraphs) {
   double widest = 0;
-  for (const Paragraph& p : paragraphs) widest = std::max(widest, text_width(ascii(p.text), p.style));
+  for (const Paragraph& p : paragraphs) widest = std::max(widest, text_width(drawable(p.text), p.style));
   return cvCeil(widest);
 }
 

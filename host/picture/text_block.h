@@ -9,7 +9,7 @@
 
 namespace gloam {
 
-/// The text in ASCII as lines no wider than `width`, broken at white space only. A number keeps its unit ("34 %", "8.1 ms"). A word
+/// The text, as it can be drawn, in lines no wider than `width`, broken at white space only. A number keeps its unit ("34 %", "8.1 ms"). A word
 /// that is wider by itself has a line of its own, without its middle. No lines for a text without words.
 std::vector<std::string> wrapped(const std::string& text, double width, const TextStyle& style);
 

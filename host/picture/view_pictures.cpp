@@ -194,7 +194,7 @@ LinesLayout lines_layout(const Frame& frame, bool has_depths) {
   layout.lines = int(frame.views.size());
   layout.line_height = std::max(1, (thinnest + layout.lines - 1) / layout.lines);
   double longest = 0;
-  for (const View& view : frame.views) longest = std::max(longest, text_width(ascii(view.name), layout.label()));
+  for (const View& view : frame.views) longest = std::max(longest, text_width(drawable(view.name), layout.label()));
   layout.label_width = std::min(cvCeil(longest), most_for_labels - layout.px(10));
   layout.heading = heading_height(layout.unit, has_depths) + layout.px(6);
   return layout;

@@ -7,6 +7,7 @@
 #include "auto/mask_words.h"
 #include "auto/report.h"
 #include "base/lists.h"
+#include "frame/untouched.h"
 #include "python/files.h"
 #include "python/frames.h"
 #include "python/memory.h"
@@ -55,7 +56,7 @@ ComposeOptions composing_of(const AutoWords& asked, const Frame& frame, std::vec
                                                                                            : "ambient");
     return {};
   }
-  ComposeOptions composing{{}, asked.ambient};
+  ComposeOptions composing{{}, asked.ambient, {}};
   const auto stated = frame.attributes.find(color_holds_attribute);
   if (asked.holds)
     composing.holds = *asked.holds;
@@ -80,9 +81,11 @@ struct AutoOutcome {
 /// The picture, of the colour as the frame has it.
 void compose_picture(const Frame& frame, const Frame& computed, const ComposeOptions& composing, AutoOutcome& made) {
   made.composite = std::make_shared<HeldFrame>(HeldFrame{copy_of(frame, planes_to_compose()), ""});
+  leave_out_other_light(made.composite->frame, made.outcome.notes);
   const Composition composition = compose(made.composite->frame, computed, composing);
   keep_planes(made.composite->frame, {"color"});
   made.facts["composite"] = composition_document(composition);
+  made.facts["not_darkened"] = composition.untouched;
   add_new(made.outcome.notes, composition.notes);
 }
 
@@ -137,7 +140,7 @@ SharedFrame read_for_auto(const std::vector<std::string>& paths, const py::dict&
     FrameFiles files(paths, options);
     std::vector<std::string> notes;
     const ColorHolds holds = asked.holds ? *asked.holds : holds_of(files, notes);
-    AutoFrame planned = planned_auto(std::move(files), request, purpose_of(asked, {holds, asked.ambient}));
+    AutoFrame planned = planned_auto(std::move(files), request, purpose_of(asked, {holds, asked.ambient, {}}));
     std::vector<std::string> planes = planned.planes;
     std::erase_if(planes, [&](const std::string& plane) { return !contains(planned.facts.planes, plane); });
     return read_frame(planned.files, planes, camera);

@@ -5,6 +5,7 @@
 #include "base/lists.h"
 #include "exr/read_words.h"
 #include "gloam/variants.h"
+#include "normalise/depth_encoding.h"
 #include "normalise/normal_axes.h"
 #include "run/run_words.h"
 #include "technique/variant_words.h"
@@ -103,6 +104,8 @@ ReadOptions read_options(const py::dict& words) {
   options.background = depth.background;
   options.depth_scale = depth.scale, options.depth_offset = depth.offset;
   take_choice(words, "depth_bytes", depth_bytes_words, options.depth_bytes);
+  if (has(words, "depth_encoding"))
+    options.depth_encoding = parse_depth_encoding(text(words, "depth_encoding"), "depth_encoding");
   if (has(words, "plane_files"))
     for (const auto& [plane, file] : taken<std::map<std::string, std::string>>(words, "plane_files"))
       options.plane_files[plane] = file;

@@ -1,5 +1,19 @@
 // The head of the page, and the buttons of the scenes.
 
+/// What the technique of a row, or of a mean, reads of a frame; null where nothing is known of it.
+const readsOf = (row) => isSubmitted(row) ? null : data.rows.find((each) => each.technique === row.technique).reads;
+
+/// Of plain settings and submitted methods; of all where there are no others.
+function renderVerdict() {
+  const all = state.mean !== null ? classNow().points : rowsOf(state.scene), plain = all.filter((row) => !row.variant);
+  const points = (plain.length ? plain : all).map((row) => ({
+    name: isSubmitted(row) ? `${nameOf(row)} (submitted)` : nameOf(row), error: row.rmse, ratio: row.ratio,
+    ms: isSubmitted(row) || !row.ms ? null : row.ms.median, reads: readsOf(row)
+  }));
+  byId('verdict').textContent =
+      verdict(points, state.mean !== null ? `in the mean of ${enumerate(classNow().scenes)}` : `on ${state.scene}`);
+}
+
 function renderHead() {
   const settings = unique(data.rows.map(keyOf)).length,
         used = unique(data.scenes.filter((scene) => rowsOf(scene.name).length).map((scene) => scene.title)).length;

@@ -56,6 +56,7 @@ Json json(const Row& row, const PicturesOfFolder& pictures) {
           {"variant", row.variant},
           {"scene", row.scene},
           {"ms", json(row.ms)},
+          {"reads", in_words(row.reads)},
           {"rmse", json(row.rmse_to_truth)},
           {"bias", json(row.bias)},
           {"ssim", json(row.ssim)},

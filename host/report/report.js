@@ -19,6 +19,7 @@ function renderShown() {
 }
 
 function render() {
+  renderVerdict();
   renderScenes();
   renderScatter();
   renderFloors();
@@ -36,7 +37,7 @@ function redraw() {
 /// A page of a shot alone: the parts about single frames have nothing to show.
 function startWithSequenceAlone() {
   for (const section of document.querySelectorAll('main > section'))
-    section.hidden = !['sequence', 'skipped'].includes(section.id);
+    section.hidden = !['sequence', 'skipped', 'measured'].includes(section.id);
   byId('scenes').hidden = true;
   renderHead();
   const show = () => (renderOthers(), renderSequence());

@@ -3,8 +3,6 @@
 const isSubmitted = (row) => is(row.submitted);
 const submittedNames = unique(data.rows.filter(isSubmitted).map((row) => row.technique));
 
-/// Submitted techniques have this shape alone, in the colour of their turn.
-const star = 'M0,-1.3L0.33,-0.45L1.24,-0.4L0.53,0.17L0.76,1.05L0,0.56L-0.76,1.05L-0.53,0.17L-1.24,-0.4L-0.33,-0.45Z';
 const isStarred = (index) => submittedNames.includes(techniques[index]);
 
 /// "1 − 0.83 (1 − AO^1.2)", "times 0.31"

@@ -132,6 +132,13 @@ std::string text_of(const Json& document) {
 
 bool reads_peeled_layers(const Reads& reads) { return contains(reads.depths, "peel"); }
 
+std::string in_words(const Reads& reads) {
+  if (reads_peeled_layers(reads)) return "all layers";
+  const auto is_first = [](const std::string& depth) { return depth == "depth"; };
+  if (!std::all_of(reads.depths.begin(), reads.depths.end(), is_first)) return "some layers";
+  return reads.views > 1 ? "two views" : "one layer";
+}
+
 bool reads_one_layer(const Reads& reads) {
   return reads.views == 1 && std::all_of(reads.depths.begin(), reads.depths.end(),
                                          [](const std::string& depth) { return depth == "depth"; });

@@ -91,6 +91,9 @@ struct Reads {
 
 /// Whether it reads peeled layers, which are available only from some renderers.
 bool reads_peeled_layers(const Reads& reads);
+
+/// "all layers", "some layers", "two views" or "one layer": what a renderer has to give.
+std::string in_words(const Reads& reads);
 /// Whether it reads only the depth of its own view, which every renderer has.
 bool reads_one_layer(const Reads& reads);
 

@@ -200,6 +200,7 @@ class Capturer {
     put(target_.reflectance, x, y, material.reflectance);
     if (target_.roughness) target_.roughness->at(x, y) = material.roughness;
     if (target_.metallic) target_.metallic->at(x, y) = material.metallic;
+    put(target_.emission, x, y, material.emission);
     if (!target_.color[0] && !target_.ambient[0]) return;
     const Radiance light = radiance(tracer_, surface, seed);
     put(target_.color, x, y, light.all);
@@ -341,15 +342,15 @@ void say_outlines(Frame& frame, const OutlineOptions& options) {
 }  // namespace
 
 const std::vector<std::string>& capture_planes() {
-  static const std::vector<std::string> planes = {"depth",     "normal",      "albedo",   "color",
-                                                  "roughness", "reflectance", "position", "back_depth",
-                                                  "instance",  "motion",      "ambient",  "metallic"};
+  static const std::vector<std::string> planes = {"depth",       "normal",   "albedo",     "color",    "roughness",
+                                                  "reflectance", "position", "back_depth", "instance", "motion",
+                                                  "ambient",     "metallic", "emission"};
   return planes;
 }
 
 std::vector<std::string> usual_capture_planes() {
   std::vector<std::string> planes = capture_planes();
-  for (const char* special : {"motion", "ambient", "metallic"}) std::erase(planes, special);
+  for (const char* special : {"motion", "ambient", "metallic", "emission"}) std::erase(planes, special);
   return planes;
 }
 
@@ -371,10 +372,7 @@ CaptureResult capture(const Tracer& tracer, const CaptureOptions& asked) {
   }
   if (options.stereo) say_stereo(frame, *options.stereo);
   if (options.outlines) say_outlines(frame, options.outlines->options());
-  if (options.stochastic.samples > 0) {
-    frame.numbers["gloamStochasticAlpha"] = options.stochastic.alpha;
-    frame.attributes["gloamStochasticSeed"] = std::to_string(options.stochastic.seed);
-  }
+  if (options.stochastic.samples > 0) say_stochastic(frame, options.stochastic);
   result.seconds = seconds_since(start);
   return result;
 }

@@ -40,6 +40,7 @@ CaptureTarget capture_target(View& view, const CaptureOptions& options, const La
   several("albedo", target.albedo);
   several("color", target.color);
   several("ambient", target.ambient);
+  several("emission", target.emission);
   several("reflectance", target.reflectance);
   several("position", target.position);
   several("motion", target.motion);
@@ -47,8 +48,8 @@ CaptureTarget capture_target(View& view, const CaptureOptions& options, const La
   single("metallic", target.metallic);
   single("back_depth", target.back_depth);
   single("instance", target.instance);
-  target.has_material = target.albedo[0] || target.color[0] || target.ambient[0] || target.reflectance[0] ||
-                        target.roughness || target.metallic;
+  target.has_material = target.albedo[0] || target.color[0] || target.ambient[0] || target.emission[0] ||
+                        target.reflectance[0] || target.roughness || target.metallic;
   if (options.peel > 0) target.peel_count = add_channel(view, "peel_count", layout);
   if (options.outlines) target.outline_count = add_channel(view, "outline_count", layout);
   for (int i = 0; i < options.peel; ++i) target.peel.push_back(add_channel(view, layer_name("peel", i), layout));

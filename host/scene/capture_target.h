@@ -14,8 +14,8 @@ namespace gloam {
 /// The planes of one view, found once instead of by name for every pixel.
 struct CaptureTarget {
   Channel* depth = nullptr;
-  Channel *normal[3] = {}, *albedo[3] = {}, *color[3] = {}, *ambient[3] = {}, *reflectance[3] = {}, *position[3] = {},
-          *motion[2] = {};
+  Channel *normal[3] = {}, *albedo[3] = {}, *color[3] = {}, *ambient[3] = {}, *emission[3] = {}, *reflectance[3] = {},
+          *position[3] = {}, *motion[2] = {};
   Channel *roughness = nullptr, *metallic = nullptr, *back_depth = nullptr, *instance = nullptr, *peel_count = nullptr,
           *outline_count = nullptr;
   bool has_material = false;  ///< any plane of what a surface is made of, or of its light

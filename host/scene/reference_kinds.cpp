@@ -161,7 +161,8 @@ ReferenceJob composite_job(const ReferenceRequest& request, const OptionSpelling
     job.identity = identity_of(*options.environment);
   }
   job.plane = "color";
-  job.reads = {"depth", "normal", "roughness", "reflectance", "color", "ambient", "albedo", "metallic"};
+  job.reads = {"depth", "normal", "roughness", "reflectance"};
+  add_new(job.reads, planes_to_compose());
   job.radius = request.radius;
   job.heading = "the whole picture";
   job.noise_from = "the noises of its parts";

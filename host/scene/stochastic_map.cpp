@@ -6,9 +6,29 @@
 
 namespace gloam {
 
+const std::vector<std::string>& stochastic_surfaces() {
+  static const std::vector<std::string> names = {"all", "hidden"};
+  return names;
+}
+
+const std::vector<std::string>& stochastic_subsets() {
+  static const std::vector<std::string> names = {"stratified", "nearest"};
+  return names;
+}
+
+void say_stochastic(Frame& frame, const StochasticOptions& options) {
+  frame.attributes["gloamStochasticSurfaces"] = stochastic_surfaces()[size_t(options.surfaces)];
+  frame.attributes["gloamStochasticSubset"] = stochastic_subsets()[size_t(options.subset)];
+  if (options.subset == StochasticSubset::nearest) return;
+  frame.numbers["gloamStochasticAlpha"] = options.alpha;
+  frame.attributes["gloamStochasticSeed"] = std::to_string(options.seed);
+}
+
 StochasticMap::StochasticMap(const StochasticOptions& options, const std::vector<Channel*>& samples)
     : alpha_(uint32_t(float(options.alpha) * float(STOCHASTIC_ONE))),
       seed_(uint32_t(options.seed)),
+      only_hidden_(options.surfaces == StochasticSurfaces::hidden),
+      nearest_first_(options.subset == StochasticSubset::nearest),
       samples_(samples) {}
 
 void StochasticMap::row(int y, const RowDepths& row) const {
@@ -24,13 +44,20 @@ void StochasticMap::pixel(int x, int y, const float* begin, const float* end) co
   const auto samples = static_cast<unsigned int>(samples_.size());
   uint32_t empty = (1u << samples) - 1;
   for (const float* depth = begin; depth < end && empty != 0; ++depth) {
-    const uint32_t hash =
-        surface_hash(uint32_t(x), uint32_t(y), seed_, std::bit_cast<uint32_t>(*depth), std::bit_cast<uint32_t>(*begin));
-    const uint32_t subset = stratified_subset(hash, alpha_, samples) & empty;
-    for (uint32_t left = subset; left != 0; left &= left - 1)
+    if (only_hidden_ && *depth == *begin) continue;
+    const uint32_t offered = subset(x, y, *depth, *begin, empty);
+    for (uint32_t left = offered; left != 0; left &= left - 1)
       samples_[size_t(std::countr_zero(left))]->at(x, y) = *depth;
-    empty &= ~subset;
+    empty &= ~offered;
   }
+}
+
+/// The samples, among those that are `empty`, that a surface is offered to.
+uint32_t StochasticMap::subset(int x, int y, float depth, float nearest, uint32_t empty) const {
+  if (nearest_first_) return empty & (~empty + 1);  // the first
+  const uint32_t hash =
+      surface_hash(uint32_t(x), uint32_t(y), seed_, std::bit_cast<uint32_t>(depth), std::bit_cast<uint32_t>(nearest));
+  return stratified_subset(hash, alpha_, static_cast<unsigned int>(samples_.size())) & empty;
 }
 
 }  // namespace gloam

@@ -15,6 +15,9 @@ struct RowDepths {
   std::vector<size_t> ends;   ///< end of each pixel's depths, in `depths`
 };
 
+/// States in a frame's attributes how its map was made.
+void say_stochastic(Frame& frame, const StochasticOptions& options);
+
 /// Makes one view's stochastic depth map, with the same bits as kernels/stochastic_depth from the same surfaces.
 class StochasticMap {
  public:
@@ -26,8 +29,10 @@ class StochasticMap {
 
  private:
   void pixel(int x, int y, const float* begin, const float* end) const;
+  uint32_t subset(int x, int y, float depth, float nearest, uint32_t empty) const;
 
   uint32_t alpha_, seed_;
+  bool only_hidden_, nearest_first_;
   const std::vector<Channel*>& samples_;
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/golden_section.h"
+
 namespace gloam::score {
 namespace {
 
@@ -86,16 +88,7 @@ std::optional<BestFit> FitSums::best() const {
   for (int i = 1; i < tries; ++i) {
     if (error_at(least_exponent + i * step) < error_at(nearest)) nearest = least_exponent + i * step;
   }
-  double low = nearest - step, high = nearest + step;
-  const double golden = (std::sqrt(5.0) - 1) / 2;
-  for (int i = 0; i < 40; ++i) {
-    const double a = high - golden * (high - low), b = low + golden * (high - low);
-    if (error_at(a) < error_at(b))
-      high = b;
-    else
-      low = a;
-  }
-  best.exponent = std::exp((low + high) / 2);
+  best.exponent = std::exp(least_between(nearest - step, nearest + step, 40, error_at));
   const Squares squares = squares_of(best.exponent);
   if (squares.strength == 0) return {};
   best.strength = squares.strength;

@@ -53,6 +53,7 @@ Frame ItemScene::capture_frame(int frame, int layers, const std::function<void(i
   if (shot_ && shot_->moves_objects) before = made_at(std::max(frame - 1, 1));
   CaptureOptions options{.width = item_.width, .height = item_.height};
   options.planes = capture_planes();
+  std::erase(options.planes, "emission");  // sets were frozen without it
   if (!shot_) std::erase(options.planes, "motion");
   options.peel = layers;
   options.peel_light = item_.with_light;

@@ -4,7 +4,10 @@
 #include <cmath>
 
 #include "base/lists.h"
+#include "exr/channel_sums.h"
+#include "exr/cryptomatte.h"
 #include "exr/holdings.h"
+#include "frame/untouched.h"
 #include "gloam/error.h"
 #include "gloam/option.h"
 
@@ -62,7 +65,35 @@ Frame read_layer(ColourLayer& layer, std::vector<std::string>& notes) {
   if (const long long count = count_no_light(colour); count > 0)
     notes.push_back(fmt::format("color: {} pixel{} {} infinite or NaN, and the composite keeps {}", count,
                                 count == 1 ? "" : "s", count == 1 ? "is" : "are", count == 1 ? "it" : "them"));
+  leave_out_other_light(colour, notes);
   return colour;
+}
+
+std::map<std::string, std::string> names_of_light(const FrameFiles& files) {
+  std::map<std::string, std::string> names;
+  for (const FrameFile& file : files.files()) {
+    for (const PlaneSource& source : file.planes())
+      if (contains(planes_of_darkened_light(), source.plane)) names.emplace(source.plane, layers_in_words(source));
+  }
+  return names;
+}
+
+std::vector<std::string> notes_on_darkening(const ColourLayer& layer, const Frame& colour) {
+  const std::map<std::string, std::string> names = names_of_light(layer.files);
+  const std::vector<std::string> planes = common_planes(colour), untouched = untouched_of(planes);
+  std::vector<std::string> notes;
+  if (has_illumination(planes)) notes.push_back(note_on_illumination(names));
+  if (!untouched.empty()) notes.push_back(note_on_untouched(untouched, names));
+  return notes;
+}
+
+std::vector<std::string> notes_on_cryptomattes(const std::filesystem::path& file) {
+  std::vector<std::string> notes;
+  for (const Cryptomatte& each : cryptomattes_of(file))
+    notes.push_back(
+        fmt::format("{}: this Cryptomatte is not in the composite; gloam run {} keeps it, with its attributes",
+                    each.name, option("into", "COPY.exr")));
+  return notes;
 }
 
 ColourLayer open_colour(const std::vector<std::string>& paths, const ReadOptions& options) {
@@ -71,6 +102,9 @@ ColourLayer open_colour(const std::vector<std::string>& paths, const ReadOptions
   ColourLayer layer{FrameFiles(paths, as_stored), {"color"}, {}, 0};
   check_colour(layer.files);
   if (contains(layer.files.common_planes(), "alpha")) layer.planes.push_back("alpha");
+  const std::vector<std::string> common = layer.files.common_planes();
+  add_new(layer.planes, untouched_of(common));
+  if (has_illumination(common)) layer.planes.insert(layer.planes.end(), {"illumination", "albedo"});
   for (const std::string& plane : layer.planes) {
     if (is_half(layer.files, plane)) layer.half_planes.push_back(plane);
   }

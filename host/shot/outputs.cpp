@@ -25,6 +25,7 @@ std::string holds_of_composite(const OutputSources& sources, const std::string& 
 void make_composite(OutputSources& sources, const Frame& result, const OutputSettings& settings) {
   const Compositing& how = settings.compositing;
   composite(sources.colour, result, settings.composited, how);
+  keep_planes(sources.colour, {"color", "alpha"});
   sources.colour.attributes = result.attributes;
   sources.colour.attributes["gloamComposite"] =
       fmt::format("{} strength={} tint={}", settings.composited, how.strength, fmt::join(how.tint, ","));
@@ -49,6 +50,8 @@ OutputSources read_sources(PlannedFrame& planned) {
   sources.file = planned.files.files().front().path().string();
   if (!planned.colour) return sources;
   sources.colour = read_layer(*planned.colour, sources.notes);
+  if (composited_plane(planned.plan.outputs) != "reflection")
+    add_new(sources.notes, notes_on_darkening(*planned.colour, sources.colour));
   sources.half_planes = planned.colour->half_planes;
   sources.part = planned.colour->part;
   sources.holds = planned.colour->files.files().front().text_attribute(color_holds_attribute);
@@ -81,7 +84,8 @@ std::vector<std::string> write_outputs(const FrameOutputs& outputs, OutputSource
   if (outputs.has_composite()) make_composite(sources, result, settings);
   if (!outputs.composite.empty())
     write_frame_like(outputs.composite, sources.file, sources.part, sources.colour, as_colour);
-  if (outputs.into.empty()) return {};
+  if (outputs.into.empty())
+    return outputs.composite.empty() ? std::vector<std::string>() : notes_on_cryptomattes(sources.file);
   keep_planes(result, settings.copied);
   std::vector<AddedPlanes> added = {{settings.copied.front(), &result, settings.copy}};
   if (outputs.composite_in_copy) added.push_back({composite_content, &sources.colour, as_colour});

@@ -3,6 +3,7 @@
 #include "base/file_identity.h"
 #include "base/memory.h"
 #include "gloam/error.h"
+#include "normalise/depth_encoding.h"
 #include "normalise/normal_axes.h"
 #include "shot/run_step.h"
 #include "technique/default_technique.h"
@@ -64,6 +65,7 @@ std::string settings_in_words(const ShotRequest& request) {
        {std::pair{"depth_scale", reading.depth_scale}, {"depth_offset", reading.depth_offset}})
     if (number) add(name, *number);
   if (reading.depth_bytes != DepthBytes::automatic) add("depth_bytes", int(reading.depth_bytes));
+  if (reading.depth_encoding) add("depth_encoding", in_words(*reading.depth_encoding));
   for (const auto& [plane, file] : reading.plane_files) add((plane + "_file").c_str(), file.string());
   if (reading.normals.axes) add("axes", in_words(*reading.normals.axes));
   const RunOptions& options = request.options;

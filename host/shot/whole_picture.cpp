@@ -45,7 +45,7 @@ ComposeOptions compose_options(const LightChoice& light, const FrameFiles& files
                        files.name(), channels_option("color", "LAYER"));
     return {};
   }
-  return {holds_of(light, files, notes), light.ambient};
+  return {holds_of(light, files, notes), light.ambient, {}};
 }
 
 std::optional<CompositeSource> open_composite(const std::optional<LightChoice>& light,
@@ -56,7 +56,9 @@ std::optional<CompositeSource> open_composite(const std::optional<LightChoice>& 
   for (const std::string& plane : planes_to_compose()) {
     if (contains(available, plane)) add_new(source.layer.planes, plane);
   }
-  source.options = {holds_of(*light, source.layer.files, source.notes), light->ambient};
+  source.options = {holds_of(*light, source.layer.files, source.notes), light->ambient,
+                    names_of_light(source.layer.files)};
+  add_new(source.notes, notes_on_cryptomattes(source.layer.files.files().front().path()));
   composition_of(available, {}, source.options);  // throws before anything is computed
   return source;
 }

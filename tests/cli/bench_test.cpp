@@ -2,6 +2,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <set>
+#include <thread>
 
 #include "cli/gloam_process.h"
 #include "picture/picture.h"
@@ -74,6 +75,26 @@ void expect_ms(const Json& ms, size_t rounds = 0) {
   EXPECT_GT(ms["min"], 0);
   EXPECT_LE(ms["min"], ms["median"]);
   EXPECT_LE(ms["median"], ms["max"]);
+}
+
+/// A long run keeps the scenes that were measured when somebody or something ends it.
+TEST_F(Cli, BenchInterruptedKeepsTheScenesThatWereMeasured) {
+  const pid_t child = start(
+      small(path("out"), {"--ladder", "none", "--no-checks", "--no-images", "--presets", "low"}, "plane,hairball"));
+  for (int i = 0; i < 10000 && !fs::exists(path("out/bench.json")); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  // The file is there a moment before the command has noted that it is.
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  kill(child, SIGINT);
+  const Result result = finish(child);
+  EXPECT_EQ(result.status, 128 + SIGINT);
+  EXPECT_NE(result.err.find("interrupted; bench.json holds the scenes that were measured"), std::string::npos)
+      << result.err;
+  const Json document = Json::parse(slurp(path("out/bench.json")));
+  ASSERT_EQ(document["scenes"].size(), 1u);
+  EXPECT_EQ(document["scenes"][0]["name"], "plane");
+  EXPECT_FALSE(document["results"].empty());
+  EXPECT_EQ(gloam({"report", path("out")}).status, 0);
 }
 
 TEST_F(Cli, BenchWritesTheContractsDocument) {

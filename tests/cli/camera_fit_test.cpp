@@ -144,7 +144,12 @@ TEST_F(CameraByPositions, DepthOfNoKindIsSaid) {
   SeenFrame seen;
   seen.stored_depth = [](double z, double) { return 1 - 0.5 / z; };
   seen.write(path("frame.exr"), {"P", "Z"});
-  EXPECT_NE(notes(info("frame.exr")).find("depth: 'Z' is neither the planar distance"), std::string::npos);
+  const Json document = info("frame.exr"), stated = info("frame.exr", {"--plane", "depth=Z"});
+  EXPECT_NE(notes(document).find("depth: made from the positions, since 'Z' is neither their planar distance"),
+            std::string::npos)
+      << notes(document);
+  for (const Json& plane : document["planes"]) EXPECT_TRUE(plane["name"] != "depth" || plane["max"] > 2) << plane;
+  EXPECT_NE(notes(stated).find("depth: 'Z' is neither the planar distance"), std::string::npos) << notes(stated);
 }
 
 TEST_F(CameraByPositions, HalfFloatsFarOriginsAndBackgroundDoNotBreakIt) {

@@ -48,6 +48,16 @@ TEST_F(CaptureShots, TheRadiusOfAPathIsThatOfItsFirstFrame) {
   expect_same_file("all.0004.exr", "some.0004.exr");
 }
 
+TEST_F(CaptureShots, FramesOfAPathHaveTheSizeThatItsFileStates) {
+  ASSERT_EQ(gloam({"capture", "plane", "-o", file("s.exr"), "--planes", "position", "--camera-path", file("path.json"),
+                   "--frames", "1"})
+                .status,
+            0);
+  const FrameFile frame(path(numbered("s", 1)), {});
+  EXPECT_EQ(frame.display().width(), 64);
+  EXPECT_EQ(frame.display().height(), 36);
+}
+
 TEST_F(CaptureShots, BothEyesMove) {
   ASSERT_EQ(capture_small("plane", "pair.####.exr",
                           {"--tilt", "0", "--camera-path", file("path.json"), "--stereo", "0.1", "--frames", "3"})

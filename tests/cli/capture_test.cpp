@@ -41,7 +41,7 @@ TEST_F(CaptureCommand, WritesEveryPlane) {
   for (const char* plane : {"depth", "normal", "albedo", "color", "roughness", "reflectance", "position", "back_depth",
                             "instance", "peel_count", "peel.00", "peel.02"})
     EXPECT_TRUE(std::find(planes.begin(), planes.end(), plane) != planes.end()) << plane << " in " << info["planes"];
-  for (const char* plane : {"motion", "ambient", "metallic"})
+  for (const char* plane : {"motion", "ambient", "metallic", "emission"})
     EXPECT_TRUE(std::find(planes.begin(), planes.end(), plane) == planes.end()) << plane << " is written unasked";
   EXPECT_EQ(info["camera"]["source"], "scene camera 'main'") << info["camera"];
   EXPECT_EQ(files(), (std::vector<std::string>{"p.exr", "p.png"}));
@@ -104,10 +104,30 @@ TEST_F(CaptureCommand, APathGivesOneFramePerCameraWithMotion) {
 }
 
 TEST_F(CaptureCommand, StochasticDepth) {
-  const Result result = gloam({"capture", "fence", "-o", file("f.exr"), "--size", "64x36", "--planes", "normal",
-                               "--stochastic", "4", "--alpha", "0.3", "--stochastic-seed", "7", "--json", "-"});
+  const Result result = gloam({"capture",
+                               "fence",
+                               "-o",
+                               file("f.exr"),
+                               "--size",
+                               "64x36",
+                               "--planes",
+                               "normal",
+                               "--stochastic",
+                               "4",
+                               "--stochastic-surfaces",
+                               "all",
+                               "--stochastic-subset",
+                               "stratified",
+                               "--alpha",
+                               "0.3",
+                               "--stochastic-seed",
+                               "7",
+                               "--json",
+                               "-"});
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_EQ(result.json()["stochastic"], nlohmann::json({{"samples", 4}, {"alpha", 0.3}, {"seed", 7}}));
+  EXPECT_EQ(
+      result.json()["stochastic"],
+      nlohmann::json({{"samples", 4}, {"surfaces", "all"}, {"subset", "stratified"}, {"alpha", 0.3}, {"seed", 7}}));
   const double chosen = result.json()["seconds"]["stochastic"], traced = result.json()["seconds"]["trace"];
   EXPECT_GT(chosen, 0);
   EXPECT_LT(chosen, traced) << "a part of it";
@@ -117,29 +137,61 @@ TEST_F(CaptureCommand, StochasticDepth) {
                                                              "stochastic.02", "stochastic.03"}));
   EXPECT_EQ(frame.number_attribute("gloamStochasticAlpha"), double(0.3f));
   EXPECT_EQ(frame.text_attribute("gloamStochasticSeed"), "7");
+  EXPECT_EQ(frame.text_attribute("gloamStochasticSurfaces"), "all");
+  EXPECT_EQ(frame.text_attribute("gloamStochasticSubset"), "stratified");
   EXPECT_EQ(gloam({"run", "sd-hbao+", file("f.exr"), "-o", file("ao.exr")}).status, 0) << "of use as it is";
 }
 
+TEST_F(CaptureCommand, TheUsualStochasticMapHoldsTheNearestHiddenSurfaces) {
+  const Result result = gloam({"capture", "fence", "-o", file("f.exr"), "--size", "64x36", "--planes", "normal",
+                               "--peel", "3", "--stochastic", "2", "--json", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(
+      result.json()["stochastic"],
+      nlohmann::json(
+          {{"samples", 2}, {"surfaces", "hidden"}, {"subset", "nearest"}, {"alpha", nullptr}, {"seed", nullptr}}));
+  FrameFile file_of_map(file("f.exr"), {});
+  EXPECT_EQ(file_of_map.text_attribute("gloamStochasticSurfaces"), "hidden");
+  EXPECT_EQ(file_of_map.text_attribute("gloamStochasticSubset"), "nearest");
+  const Frame frame = file_of_map.read({"depth", "stochastic.00", "peel.01", "peel.02"});
+  int held = 0;
+  for (int y = 0; y < 36; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const auto at = [&](const char* plane) { return frame.views[0].planes.at(plane).channels[0].at(x, y); };
+      if (is_background(at("stochastic.00"))) continue;
+      ++held;
+      EXPECT_GT(at("stochastic.00"), at("depth"));
+      EXPECT_EQ(at("stochastic.00"), at(at("peel.01") > at("depth") ? "peel.01" : "peel.02"));
+    }
+  }
+  EXPECT_GT(held, 100);
+}
+
 TEST_F(CaptureCommand, TheStochasticMapIsWhatTheTechniqueMakesOfTheLayers) {
-  ASSERT_EQ(gloam({"capture", "fence", "-o", file("f.exr"), "--size", "64x36", "--planes", "depth", "--peel", "64",
-                   "--stochastic", "8", "--stochastic-seed", "9"})
-                .status,
-            0);
   ASSERT_EQ(
       gloam({"capture", "fence", "-o", file("layers.exr"), "--size", "64x36", "--planes", "depth", "--peel", "64"})
           .status,
       0);
-  ASSERT_EQ(
-      gloam({"run", "stochastic-depth", file("layers.exr"), "-o", file("made.exr"), "--samples", "8", "--seed", "9"})
-          .status,
-      0);
   std::vector<std::string> samples;
   for (int i = 0; i < 8; ++i) samples.push_back(layer_name("stochastic", i));
-  Frame captured = FrameFile(file("f.exr"), {}).read(samples), made = FrameFile(file("made.exr"), {}).read(samples);
-  EXPECT_EQ(plane_names(captured).size(), 8u);
-  EXPECT_TRUE(same_bits(captured, made));
-  captured.views[0].planes.at("stochastic.07").channels[0].at(30, 20) += 1;
-  EXPECT_FALSE(same_bits(captured, made));
+  for (const auto& [of_capture, of_run] : std::initializer_list<std::pair<Arguments, Arguments>>{
+           {{}, {}},
+           {{"--stochastic-surfaces", "all", "--stochastic-subset", "stratified", "--stochastic-seed", "9"},
+            {"--surfaces", "all", "--subset", "stratified", "--seed", "9"}}}) {
+    Arguments capture = {"capture", "fence",    "-o",    file("f.exr"),  "--size",
+                         "64x36",   "--planes", "depth", "--stochastic", "8"},
+              run = {"run", "stochastic-depth", file("layers.exr"), "-o", file("made.exr"), "--samples", "8"};
+    capture.insert(capture.end(), of_capture.begin(), of_capture.end());
+    run.insert(run.end(), of_run.begin(), of_run.end());
+    ASSERT_EQ(gloam(capture).status, 0);
+    ASSERT_EQ(gloam(run).status, 0);
+    Frame captured = FrameFile(file("f.exr"), {}).read(samples);
+    const Frame made = FrameFile(file("made.exr"), {}).read(samples);
+    EXPECT_EQ(plane_names(captured).size(), 8u);
+    EXPECT_TRUE(same_bits(captured, made));
+    captured.views[0].planes.at("stochastic.00").channels[0].at(30, 20) = -1;
+    EXPECT_FALSE(same_bits(captured, made));
+  }
 }
 
 TEST_F(CaptureCommand, ASecondView) {
@@ -220,10 +272,18 @@ TEST_F(CaptureCommand, RefusesStochasticDepthInOneLine) {
     expect_refused(all, 2, says);
   };
   for (const char* samples : {"0", "17", "-1", "4.5", "many"}) refused({"--stochastic", samples}, "--stochastic");
-  for (const char* alpha : {"-1", "2", "nan"}) refused({"--stochastic", "4", "--alpha", alpha}, "--alpha");
+  for (const char* alpha : {"-1", "2", "nan"})
+    refused({"--stochastic", "4", "--stochastic-subset", "stratified", "--alpha", alpha}, "--alpha");
   for (const char* seed : {"-1", "2147483648"}) refused({"--stochastic", "4", "--stochastic-seed", seed}, "seed");
   refused({"--alpha", "0.2"}, "--stochastic S");
   refused({"--stochastic-seed", "2"}, "--stochastic S");
+  refused({"--stochastic-surfaces", "all"}, "--stochastic S");
+  refused({"--stochastic-subset", "nearest"}, "--stochastic S");
+  refused({"--stochastic", "4", "--stochastic-surfaces", "seen"}, "all");
+  refused({"--stochastic", "4", "--stochastic-subset", "random"}, "stratified");
+  // The usual map is not random.
+  refused({"--stochastic", "4", "--alpha", "0.2"}, "--stochastic-subset stratified");
+  refused({"--stochastic", "4", "--stochastic-seed", "2"}, "--stochastic-subset stratified");
 }
 
 TEST_F(CaptureCommand, RefusesInOneLine) {

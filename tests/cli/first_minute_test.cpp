@@ -135,7 +135,36 @@ TEST_F(FirstMinute, TheCommandThatWasMeantIsNamed) {
   expect_has(refused({"comapre", "--help"}), {"did you mean 'compare'"});
   expect_has(refused({"comapre", frame}), {"did you mean 'compare'"});
   expect_has(refused({"--versoin"}), {"did you mean '--version'"});
-  expect_has(refused({"ao"}), {"frame is required"});
+  expect_has(refused({"hlep"}), {"no command 'hlep' (did you mean 'help'?)"});
+}
+
+TEST_F(FirstMinute, WhatIsMissingIsNamedWithAnExample) {
+  expect_has(refused({"ao"}), {"gloam: ao: FRAME.exr is missing (EXR file, or PNG,",
+                               "; give it as in: gloam ao frame.exr (gloam ao --help)"});
+  expect_has(refused({"gtao"}), {"gloam: gtao: FRAME.exr is missing", "; give it as in: gloam gtao frame.exr ("});
+  expect_has(refused({"run", "ao"}), {"gloam: run: FRAME.exr is missing", "; give it as in: gloam ao frame.exr ("});
+  expect_has(refused({"ao", "a.exr", "b.exr", "c.exr"}), {"gloam: ao: one argument too many: 'c.exr'"});
+  expect_has(refused({"plan", "gtao"}), {"plan: FRAME.exr is missing", "gloam plan gtao frame.exr"});
+  expect_has(refused({"capture", "gallery"}), {"capture: --output FRAME.exr is missing", "as in: gloam capture "});
+  expect_has(refused({"ao", "--depth-file", "a.png", "--depth-file", "b.png"}),
+             {"gloam: ao: --depth-file is given 2 times (a.png, b.png); give it once"});
+}
+
+TEST_F(FirstMinute, AutoNamesItsResultAsRunDoes) {
+  const Result result = gloam({"auto", frame, "--mask", "never"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  expect_has(result.out, {"wrote " + path("frame_auto.exr").string()});
+  EXPECT_EQ(gloam({"auto", frame, "--mask", "never"}).status, 0) << "its own result is written anew";
+  fs::copy_file(frame, path("frame_auto.exr"), fs::copy_options::overwrite_existing);
+  expect_has(gloam({"auto", frame}).err, {"frame_auto.exr", "not the result of an earlier call"});
+  fs::remove(path("frame_auto.exr"));
+  ASSERT_EQ(gloam({"auto", frame, "--mask", "never", "-o", path("a.png")}).status, 0);
+  ASSERT_EQ(gloam({"auto", frame, "--mask", "never", "--explain", path("b.png")}).status, 0);
+  EXPECT_EQ(files(), (std::vector<std::string>{"a.png", "b.png", "frame.exr"}));
+  fs::remove(path("a.png"));
+  fs::remove(path("b.png"));
+  expect_has(refused({"auto", frame, "-o", path("a.png"), "--explain", path("b.png")}),
+             {"a.png", "b.png", "leave one out"});
 }
 
 TEST_F(FirstMinute, HelpIsACommand) {
@@ -143,7 +172,12 @@ TEST_F(FirstMinute, HelpIsACommand) {
   EXPECT_EQ(whole.status, 0);
   EXPECT_EQ(whole.out, gloam({"--help"}).out);
   EXPECT_EQ(of_run.out, gloam({"run", "--help"}).out);
-  expect_has(gloam({"gtao", "--help"}).out, {"Usage: gloam run", "Parameters of gtao"});
+  const std::string of_gtao = gloam({"gtao", "--help"}).out;
+  expect_has(of_gtao, {"Parameters of gtao", "Usage: gloam run", "Flags that most calls need"});
+  EXPECT_EQ(of_gtao.rfind("gtao: ambient occlusion", 0), 0u) << of_gtao;
+  EXPECT_LT(of_gtao.find("Parameters of gtao"), of_gtao.find("Usage: gloam run"));
+  EXPECT_EQ(of_gtao, gloam({"run", "gtao", "--help"}).out);
+  expect_has(of_run.out, {"gloam ao --depth-file depth.png "});
 }
 
 }  // namespace

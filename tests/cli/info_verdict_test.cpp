@@ -38,6 +38,45 @@ TEST_F(Info, BeginsWithTheVerdict) {
   EXPECT_EQ(verdict(path("beauty.exr")), "Ambient occlusion cannot be computed: the file lacks depth.");
 }
 
+TEST_F(Info, BeginsWithTheVerdictOnAShot) {
+  for (const int number : {1, 2, 3}) fs::copy_file(loggia, path(fmt::format("shot.{:04}.exr", number)));
+  const std::string shot = path("shot.####.exr"), out = path("ao_shot.####.exr");
+  EXPECT_EQ(verdict(shot),
+            "Ambient occlusion can be computed of all 3 frames: from depth and normals, each by the camera in "
+            "its header: gloam ao '" +
+                shot + "' -o '" + out + "'");
+  EXPECT_TRUE(verdict(shot, {"--frames", "1,3", "--fov", "60"})
+                  .ends_with("each by the camera that was given: gloam ao '" + shot + "' -o '" + out +
+                             "' --frames 1,3 --fov 60"));
+  write_frame(path("shot.0002.exr"), small_frame(32, 24, {"color"}));
+  EXPECT_NE(
+      verdict(shot).find("of 2 of 3 frames: from depth and normals, each by the camera in its header; not of 2: the "
+                         "files lack depth: gloam ao "),
+      std::string::npos)
+      << verdict(shot);
+  EXPECT_EQ(verdict(path("shot.####.exr"), {"--frames", "2"}),
+            "Ambient occlusion cannot be computed of any frame: the files lack depth.");
+}
+
+/// A channel of any name may be the depth: the hint is a flag that works.
+TEST_F(Info, OneChannelOfAnUnknownNameMayBeTheDepth) {
+  Frame frame = small_frame();
+  frame.views[0].camera.reset();
+  write_frame(path("frame.exr"), frame);
+  FrameFile depth(path("frame.exr"), {.as_stored = true, .channels = {{"mask", "Z"}, {"depth", "none"}}});
+  Frame odd = depth.read({"mask"});
+  odd.views[0].planes["thing"] = std::move(odd.views[0].planes.at("mask"));
+  odd.views[0].planes["thing"].name = "thing";
+  odd.views[0].planes.erase("mask");
+  write_frame(path("odd.exr"), odd);
+  const std::string hint = "--plane depth=thing takes its only channel for the depth";
+  EXPECT_EQ(verdict(path("odd.exr")), "Ambient occlusion cannot be computed: the file lacks depth; " + hint + ".");
+  const Result refused = gloam({"ao", path("odd.exr")});
+  EXPECT_EQ(refused.lines_of_error(), 1) << refused.err;
+  EXPECT_NE(refused.err.find(hint), std::string::npos) << refused.err;
+  EXPECT_EQ(gloam({"ao", path("odd.exr"), "--plane", "depth=thing"}).status, 0);
+}
+
 /// What the verdict says is what the command then does.
 TEST_F(Info, TheCommandOfTheVerdictRunsWithTheRadiusThatItNames) {
   fs::copy_file(loggia, path("frame.exr"));

@@ -378,6 +378,28 @@ TEST_F(LeaderboardInBrowser, SortsByClickAndMarksTheBest) {
   EXPECT_NE(remark.find("1 row is hidden"), std::string::npos) << remark;
 }
 
+TEST_F(LeaderboardInBrowser, OpensWithTheAnswerAsWordsChartAndPictures) {
+  const Json result = look(R"js(
+    result.sections = [...document.querySelectorAll('main > section')].map((section) => section.id).slice(0, 3);
+    result.words = document.getElementById('verdict').textContent;
+    result.first = shown();
+    const points = () => [...document.querySelectorAll('#scatter .point_marks path')];
+    await until(() => points().length > 0);
+    result.points = points().length;
+    result.levels = document.querySelectorAll('#scatter .level_rules line').length;
+    click(points()[[...document.getElementById('scatter').view.data('points')].findIndex((p) => p.label === 'hbao+ medium')]);
+    await until(() => shown() === 'hbao+ medium');
+  )js");
+  EXPECT_EQ(result["sections"], Json({"costs", "method", "methods"}));
+  EXPECT_EQ(
+      result["words"],
+      "Nearest to the truth on all 2 items is gtao medium: error 0.1200, at 1.60\u202f× the time of HBAO+ medium. Of "
+      "what takes no longer than HBAO+ medium, hbao+ medium is nearest: error 0.2200.");
+  EXPECT_EQ(result["first"], "gtao medium");
+  EXPECT_EQ(result["points"], 2);
+  EXPECT_EQ(result["levels"], 1) << "the submitted method has no time that compares";
+}
+
 TEST_F(LeaderboardInBrowser, ChoosesItemsVariantsAndTheFit) {
   const Json result = look(R"js(
     const choose = (text) => {
@@ -387,7 +409,7 @@ TEST_F(LeaderboardInBrowser, ChoosesItemsVariantsAndTheFit) {
     };
     choose('sequences');
     result.sequences = names();
-    result.heading = document.getElementById('choice-name').textContent;
+    result.heading = document.querySelector('.choice-name').textContent;
     choose('single frames');
     document.getElementById('show-variants').click();
     result.frames = names();
@@ -413,7 +435,7 @@ TEST_F(LeaderboardInBrowser, OpensOnTheItemsThatMostMethodsHaveMeansOf) {
                          row("lightfield-hbao+", "statue", "display", 0.02, 1)};
   write("a/bench.json", document);
   const Json result = look(R"js(
-    result.heading = document.getElementById('choice-name').textContent;
+    result.heading = document.querySelector('.choice-name').textContent;
     result.first = [names(), cell(0, 'error').textContent];
     result.heads = [...document.querySelectorAll('#items-table th')].map((th) => th.textContent);
   )js");

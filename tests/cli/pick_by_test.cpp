@@ -200,6 +200,16 @@ TEST_F(PickShot, TheCalmestWithinTheBudgetIsPicked) {
   EXPECT_TRUE(fs::exists(path("ao.0003.exr")));
 }
 
+TEST_F(PickShot, FramesThatAreMissingAreLeftOut) {
+  make_shot();
+  fs::remove(path("w.0002.exr"));
+  const Arguments frames = {"--budget", "1000s", "--frames", "1-3"};
+  EXPECT_NE(pick(frames).err.find("--missing skip leaves it out"), std::string::npos);
+  Arguments skipping = frames;
+  skipping.insert(skipping.end(), {"--missing", "skip"});
+  EXPECT_EQ(pick(skipping).status, 0) << pick(skipping).err;
+}
+
 TEST_F(PickShot, IsRefusedInOneLine) {
   make_shot();
   const auto refused = [&](const Result& result, int status, const std::string& words) {

@@ -249,6 +249,31 @@ TEST_F(Report, SaysWhatIsWrong) {
   EXPECT_FALSE(fs::exists(path("out/report.html")));
 }
 
+TEST_F(ReportInBrowser, OpensWithTheAnswer) {
+  Json document = measurements();
+  document["results"].push_back(row("hall", "dp-gtao", "low", 4, 0.05));
+  document["results"].back()["depths"] = {"depth", "peel"};
+  const std::string script = R"js(
+    const words = () => document.getElementById('verdict').textContent;
+    result.sections = [...document.querySelectorAll('main > section')].map((section) => section.id).slice(0, 2);
+    result.hall = words();
+    goTo('field', null);
+    result.field = words();
+  )js";
+  const Json result = in_browser(script);
+  EXPECT_EQ(result["sections"], Json({"explorer", "pictures"}));
+  EXPECT_EQ(result["hall"],
+            "Nearest to the truth on hall is gtao low: error 0.1500, at 0.800\u202f× the time of HBAO+ medium.");
+  EXPECT_EQ(result["field"], "There is no truth on field, so nothing is known of errors there.");
+  write(document);
+  ASSERT_EQ(report().status, 0);
+  EXPECT_EQ(
+      in_browser(script)["hall"],
+      "Nearest to the truth on hall is dp-gtao low: error 0.0500, at 4.00\u202f× the time of HBAO+ medium. It reads "
+      "all layers; of what reads one layer, gtao low is nearest: error 0.1500, at 0.800\u202f× the time of HBAO+ "
+      "medium.");
+}
+
 TEST_F(ReportInBrowser, SaysThatThereIsNoLadder) {
   Json document = measurements();
   for (Json& each : document["results"]) each.erase("ladder");

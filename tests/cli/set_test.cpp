@@ -65,6 +65,15 @@ TEST_F(Sets, AreListedWithTheirItems) {
     EXPECT_NE(items.find(word), std::string::npos) << word;
 }
 
+TEST_F(Sets, AreMadeInFoldersNotInFiles) {
+  const Result result = gloam({"set", "make", "gloam-1", "-o", in("e.json")});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.lines_of_error(), 1) << result.err;
+  for (const char* words : {"e.json: is the folder to make the set in, and looks like a file", "--json FILE"})
+    EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
+  EXPECT_FALSE(fs::exists(path("e.json")));
+}
+
 TEST_F(Sets, HaveTheFrozenContent) {
   const json first = made("small", "set");
   EXPECT_TRUE(first["complete"]);

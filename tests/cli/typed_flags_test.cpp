@@ -183,6 +183,9 @@ TEST_F(EveryCommand, HasItsKindOfFlagsTold) {
        "gloam: --radius nan is not allowed; a number from 1e-30 to 1e+30, or inf, is\n"},
       {{"auto", "--mask", "measure"},
        "gloam: --mask measure is not allowed (did you mean 'measured'?); measured, always and never are\n"},
+      {{"run", "--depth-encoding", "wrapped,srbg"},
+       "gloam: --depth-encoding wrapped,srbg: 'srbg' is not allowed (did you mean 'srgb'?); auto and plain are, or "
+       "some of srgb, bottom-up and wrapped\n"},
       {{"capture", "--size", "5x"}, "gloam: --size 5x is not WIDTHxHEIGHT; write 1920x1080\n"},
       {{"capture", "--modules", "3-"},
        "gloam: --modules 3- is not allowed; numbers and ranges are, such as 0,5,10-19\n"},

@@ -29,6 +29,24 @@ TEST_F(Variants, LayersChooseTheRowThatANameHas) {
             "dp-evidence/estimate");
 }
 
+TEST_F(Variants, AShareOfSamplesIsOfNoUseWhereNothingIsDrawn) {
+  Frame frame = shoot(perspective(48, 32), room());
+  for (const char* layer : {"peel.00", "peel.01"}) invent_plane(frame, layer);
+  write_frame(path("frame.exr"), frame);
+  const auto notes = [&](const Arguments& settings) {
+    Arguments arguments = {"run", "sd-hbao", path("frame.exr"), "-o", path("ao.exr"), "--radius", "0.5"};
+    arguments.insert(arguments.end(), settings.begin(), settings.end());
+    const Result result = gloam(arguments);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result.err;
+  };
+  const std::string words = "stochastic-depth: alpha 0.4 changes nothing";
+  EXPECT_NE(notes({"--set", "stochastic-depth.alpha=0.4"}).find(words), std::string::npos);
+  EXPECT_EQ(notes({"--set", "stochastic-depth.alpha=0.4", "--set", "stochastic-depth.subset=stratified"}).find(words),
+            std::string::npos);
+  EXPECT_EQ(notes({}).find(words), std::string::npos);
+}
+
 TEST_F(Variants, ThatNoTechniqueOfAnEffectHasAreRefusedInOneLine) {
   Frame frame = shoot(perspective(48, 32), room());
   invent_plane(frame, "contact");

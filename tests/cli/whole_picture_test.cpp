@@ -64,7 +64,7 @@ TEST_F(WholePicture, NeedsNoOtherOutput) {
   ASSERT_EQ(gloam({"auto", file("s.####.exr"), "--composite", file("p.####.exr")}).status, 0);
   EXPECT_TRUE(fs::exists(path(numbered("p", 1))));
   EXPECT_EQ(files(), (std::vector<std::string>{"alone.exr", "c.exr", "f.exr", "out.exr", "p.0001.exr", "s.0001.exr"}));
-  expect_refused({"auto", file("f.exr")}, 2, {"nothing is to be written", "--output", "--composite"});
+  expect_refused({"auto", file("s.####.exr")}, 2, {"the results of a shot have no name", "-o 'auto.####.exr'"});
   expect_refused({"auto", file("f.exr"), "--composite", file("x.exr"), "--half"}, 2, {"--half", "-o"});
 }
 

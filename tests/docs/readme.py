@@ -128,7 +128,7 @@ def numbers_of_prose():
 
 CHECKS = (check_evidence, check_needs, check_presets_of_gtao, check_ratios, check_eyes, check_renderers, check_program, check_hard_cases)
 # How many numbers each place checked above has; another number in README.md needs a check of its own.
-CHECKED = {"33", "42", "4", "7", "1.3", "1.7", "2.5", "1e7"}
+CHECKED = {"34", "42", "4", "7", "1.3", "1.7", "2.5", "1e7"}
 
 for check in CHECKS:
     check()

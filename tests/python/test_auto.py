@@ -58,6 +58,23 @@ def test_the_composite_is_that_of_the_command(file, command, tmp_path):
     assert gloam.auto(file, **WORDS).composite is None
 
 
+def test_light_of_its_own_stays(command, tmp_path):
+    frame = gloam.capture("lounge", 96, 54, ["normal", "color", "emission"])
+    words = {"color_holds": "ambient,shadows,indirect,reflection", "radius": 0.5, "mask": "never"}
+    result = gloam.auto(frame, composite=True, **words)
+    colour, emission, ao = (numpy.array(each, numpy.float64) for each in (frame["color"], frame["emission"], result["ao"][..., None]))
+    assert result.facts["not_darkened"] == ["emission"] and any("emission is not darkened" in note for note in result.notes)
+    assert numpy.abs(result.composite - (emission + (colour - emission) * ao)).max() < 1e-5
+    assert numpy.abs(result.composite - colour * ao).max() > 0.05
+    arrays = {plane: frame[plane] for plane in ("depth", "normal", "color", "emission")}
+    assert numpy.abs(gloam.auto(**arrays, camera=frame.camera, composite=True, **words).composite - result.composite).max() < 1e-5
+    gloam.write(tmp_path / "frame.exr", frame)
+    told = command("auto", tmp_path / "frame.exr", "--composite", tmp_path / "c.exr", "--mask", "never", "--radius", "0.5", "--color-holds",
+                   words["color_holds"], as_json=True)
+    assert told["not_darkened"] == ["emission"]
+    assert numpy.abs(gloam.read(tmp_path / "c.exr", as_stored=True)["color"] - result.composite).max() < 1e-5
+
+
 def test_a_goal_chooses(file):
     result = gloam.auto(file, error=1000.0, radius=0.5, preset="low", resolution="full")
     assert result.facts["goal_met"] is True and result.facts["error_goal"] == 1000

@@ -88,6 +88,7 @@ def test_normals_of_no_convention_are_made_from_the_depth(room):
     strange = 255 * (0.5 + 0.5 * room["normal"]).astype(numpy.float32)
     result = run(room, normal=strange)
     assert any("fit no convention" in note and "not used" in note for note in result.notes), result.notes
+    assert all(note and not note.startswith(";") for note in result.notes), result.notes
     without = run({name: value for name, value in room.items() if name != "normal"})
     assert numpy.array_equal(result["ao"], without["ao"])
 

@@ -14,6 +14,7 @@ import gloam
 sys.path.insert(0, str(pathlib.Path(os.environ["GLOAM_SOURCE_DIR"], "bench", "reproduce")))
 
 import of_gbuffer
+from exr_files import layer, write_exr
 
 FAR = 200.0  # beyond all that the frame shows
 
@@ -154,6 +155,31 @@ def test_one_file_of_several_arrays(planes, tmp_path, name):
     assert any("'K' of 3x3 is left out" in note for note in frame.notes)
 
 
+@pytest.mark.parametrize("depth", ["depth", "distance"])
+def test_the_hdf5_of_blenderproc(planes, tmp_path, depth):
+    """Float depth or distance along the ray, 1e10 where nothing is, normals of the camera from 0 to 1, colours of 8 bits."""
+    h5py = pytest.importorskip("h5py")
+    length = planes["depth"] if depth == "depth" else rays(planes)
+    with h5py.File(tmp_path / "0.hdf5", "w") as file:
+        file["colors"], file["normals"] = colours_of_bytes(planes), encoded_normals(planes).astype(numpy.float32)
+        file[depth] = numpy.where(numpy.isfinite(length), length, 1e10).astype(numpy.float32)
+        file["category_id_segmaps"] = numpy.zeros(length.shape, numpy.uint8)
+    frame = read(tmp_path / "0.hdf5")
+    assert_depth(frame["depth"], planes["depth"], 1e-4)
+    assert {"normal", "color"} <= set(frame.planes)
+    assert numpy.abs(frame["normal"] - planes["normal"])[numpy.isfinite(planes["depth"])].max() < 1e-5
+
+
+def test_observations_of_habitat(planes, tmp_path):
+    """By the names of its sensors; planar, and 0 where nothing is."""
+    depth = numpy.where(numpy.isfinite(planes["depth"]), planes["depth"], 0)
+    colours = numpy.concatenate([colours_of_bytes(planes), numpy.full((*depth.shape, 1), 255, numpy.uint8)], -1)
+    numpy.savez(tmp_path / "observations.npz", depth_sensor=depth, color_sensor=colours, semantic_sensor=numpy.zeros(depth.shape, numpy.uint32))
+    frame = read(tmp_path / "observations.npz")
+    assert_depth(frame["depth"], planes["depth"], 0)
+    assert "color" in frame.planes
+
+
 def test_planes_in_files_of_their_own(planes, tmp_path, command):
     cv2.imwrite(str(tmp_path / "d.png"), millimetres(planes["depth"]))
     cv2.imwrite(str(tmp_path / "n.png"), whole(planes["normal"] * 0.5 + 0.5, numpy.uint16)[..., ::-1])
@@ -231,6 +257,8 @@ def save(path, values):
             file["dataset"] = values.astype(numpy.float16)
     elif path.suffix == ".pfm":
         path.write_bytes(pfm(values))
+    elif path.suffix == ".exr":
+        write_exr(path, values if isinstance(values, dict) else layer("", values, "RGB" if values.ndim == 3 else "Y"))
     else:
         cv2.imwrite(str(path), values[..., ::-1] if values.ndim == 3 else values)
 
@@ -247,6 +275,20 @@ def colours_of_bytes(planes):
     return whole(srgb(planes["color"]), numpy.uint8)
 
 
+def rays(planes):
+    return (planes["depth"] * secant_of(planes["depth"], 60)).astype(numpy.float32)
+
+
+def grey_of_depth(planes):
+    """As a render pass with red, green and blue holds it, and alpha."""
+    return {**layer("", numpy.repeat(planes["depth"][..., None], 3, -1), "RGB", behind=65504), **layer("", numpy.ones_like(planes["depth"]), "A")}
+
+
+def encoded_normals(planes):
+    """From 0 to 1, black where nothing is."""
+    return numpy.where(numpy.isfinite(planes["depth"])[..., None], planes["normal"] * 0.5 + 0.5, 0)
+
+
 # Of each: the depth's file and values, the other planes' files, the flags that the user still has to give, and the step of the depth.
 WRITERS = {
     "Hypersim": ("scene_cam_00_geometry_hdf5/frame.0000.depth_meters.hdf5", lambda p: numpy.where(numpy.isfinite(p["depth"]), p["depth"] * secant_of(p["depth"], 60), numpy.nan),
@@ -260,6 +302,20 @@ WRITERS = {
     "Virtual KITTI 2": ("frames/depth/Camera_0/depth_00007.png", lambda p: steps_of(p["depth"], 0.01), {}, {"fov": 60}, 0.0051),
     "TartanAir": ("P000/depth_left/000000_left_depth.npy", lambda p: p["depth"], {"P000/image_left/000000_left.png": colours_of_bytes}, {}, 0),
     "Middlebury": ("Piano/disp0.pfm", lambda p: numpy.where(numpy.isfinite(p["depth"]), 130 * 0.2 / p["depth"] - 0.1, numpy.inf), {"Piano/im0.png": colours_of_bytes}, {}, 1e-3),
+    "Kubric": ("depth_00003.tiff", lambda p: numpy.where(numpy.isfinite(p["depth"]), rays(p), 1e10).astype(numpy.float32),
+               {"normal_00003.png": lambda p: whole(p["normal"] * 0.5 + 0.5, numpy.uint16), "rgba_00003.png": colours_of_bytes}, {"fov": 60}, 1e-4),
+    "Infinigen": ("frames/Depth/camera_0/Depth_0_0_0048_0.npy", lambda p: p["depth"],
+                  {"frames/SurfaceNormal/camera_0/SurfaceNormal_0_0_0048_0.npy": lambda p: p["normal"], "frames/Image/camera_0/Image_0_0_0048_0.png": colours_of_bytes}, {"fov": 60}, 0),
+    "FlyingThings3D": ("disparity/TRAIN/A/0000/left/0006.pfm", lambda p: numpy.where(numpy.isfinite(p["depth"]), 1050 / p["depth"], 0), {}, {}, 1e-3),
+    "BEDLAM2": ("exr_layers/depth/seq_000000/seq_000000_0003_depth.exr", lambda p: layer("", p["depth"], ["Depth"], numpy.float16, behind=65504),
+                {"exr_layers/cameranormal/seq_000000/seq_000000_0003_cameranormal.png": normals_of_bytes, "exr_layers/image/seq_000000/seq_000000_0003_image.png": colours_of_bytes}, {"fov": 60}, 0.02),
+    "Unity Perception": ("sequence.0/step0.camera.Depth.exr", lambda p: {**layer("", p["depth"], "R"), **layer("", numpy.zeros((90, 150, 2)), "GB"), **layer("", numpy.ones((90, 150)), "A")},
+                         {"sequence.0/step0.camera.Normal.exr": encoded_normals, "sequence.0/step0.camera.png": colours_of_bytes}, {"fov": 60}, 0),
+    "Movie Render Queue": ("FinalImageMovieRenderQueue_WorldDepth.0003.exr", grey_of_depth,
+                           {"FinalImageMovieRenderQueue_WorldNormal.0003.exr": lambda p: p["normal"], "FinalImage.0003.exr": lambda p: p["color"], "FinalImageBaseColor.0003.exr": lambda p: p["color"]}, {"fov": 60, "normal_space": "view"}, 0),
+    "a folder for each pass of Unreal": ("seq/FinalImageSceneDepth/0003.exr", grey_of_depth, {"seq/FinalImageWorldNormal/0003.exr": encoded_normals, "seq/FinalImage/0003.png": colours_of_bytes}, {"fov": 60}, 0),
+    "Unity Recorder": ("shot_Depth_0003.exr", grey_of_depth, {"shot_Normal_0003.exr": lambda p: p["normal"], "shot_Beauty_0003.exr": lambda p: p["color"], "shot_Albedo_0003.exr": lambda p: p["color"]}, {"fov": 60}, 0),
+    "a folder of EXR": ("run/depth/0012.exr", lambda p: p["depth"], {"run/normal/0012.exr": lambda p: p["normal"], "run/image/0012.png": colours_of_bytes}, {"fov": 60}, 0),
     "CARLA": ("run/depth/000012.png", lambda p: bytes_of_24_bits(p["depth"]), {"run/rgb/000012.png": colours_of_bytes, "run/normals/000012.png": normals_of_bytes}, {"fov": 90, "depth_scale": FAR}, 2e-5),
 }
 
@@ -275,7 +331,7 @@ def test_the_files_of_a_writer(planes, tmp_path, writer):
         (tmp_path / file).with_name("calib.txt").write_text("cam0=[130 0 74.5; 0 130 44.5; 0 0 1]\ncam1=[130 0 77.5; 0 130 44.5; 0 0 1]\ndoffs=0.1\nbaseline=0.2\nwidth=150\nheight=90\nndisp=290\n")
     frame = gloam.read(tmp_path / file, **stated)
     assert_depth(frame["depth"], planes["depth"], step)
-    wanted = {"depth"} | {"normal" for name in others if "normal" in name} | {"color" for name in others if "normal" not in name}
+    wanted = {"depth"} | {"normal" if "normal" in name.lower() else "albedo" if "BaseColor" in name or "Albedo" in name else "color" for name in others}
     assert set(frame.planes) >= wanted
     assert any("named as by" in note for note in frame.notes)
     surface = numpy.isfinite(planes["depth"])
@@ -283,8 +339,94 @@ def test_the_files_of_a_writer(planes, tmp_path, writer):
         assert numpy.abs(frame["normal"] - planes["normal"])[surface].max() < 0.02
     if writer == "Middlebury":
         assert (frame.camera.fx, frame.camera.cx, frame.camera.cy) == (130, 75, 45)
-    if writer in ("Hypersim", "TartanAir"):
-        assert frame.camera.fx == pytest.approx(75 / numpy.tan(numpy.radians(30 if writer == "Hypersim" else 45)))
+    if fov := {"Hypersim": 60, "TartanAir": 90, "FlyingThings3D": 49.134}.get(writer):
+        assert frame.camera.fx == pytest.approx(75 / numpy.tan(numpy.radians(fov / 2)))
+
+
+@pytest.mark.parametrize("file, steps, fov, color", [("test.depth.00003.png", 255 / 10, None, "test.rgba.00003.png"), ("room0/results/depth000003.png", 6553.5, 90, None)],
+                         ids=["Habitat", "Replica"])
+def test_depth_of_ten_metres_at_most(planes, tmp_path, file, steps, fov, color):
+    surface = numpy.isfinite(planes["depth"])
+    depth = numpy.where(surface, 9.9 / planes["depth"][surface].max() * planes["depth"], numpy.inf)
+    kind = numpy.uint8 if steps < 256 else numpy.uint16
+    save(tmp_path / file, numpy.where(surface, depth * steps, 0).astype(kind))
+    if color:
+        save(tmp_path / color, colours_of_bytes(planes))
+    frame = gloam.read(tmp_path / file, **({} if fov else {"fov": 60}))
+    assert_depth(frame["depth"], numpy.where(depth * steps < 1, numpy.inf, depth), 1 / steps)
+    assert ("color" in frame.planes) == bool(color) and any("named as by" in note for note in frame.notes)
+    if fov:
+        assert frame.camera.fx == pytest.approx(75)
+    assert any("256 steps are too few for smooth surfaces; store 16 bits, or floats" in note for note in frame.notes) == (kind is numpy.uint8)
+
+
+def test_pixel_positions_of_unity_give_the_lens(planes, tmp_path):
+    depth = planes["depth"]
+    height, width = depth.shape
+    x, y = (numpy.arange(width) + 0.5 - width / 2) / 100, (numpy.arange(height) + 0.5 - height / 2) / 100
+    place = numpy.stack([x[None] * depth, -y[:, None] * depth, depth], -1)
+    for name, values in {"Depth": depth, "PixelPosition": place}.items():
+        write_exr(tmp_path / f"step3.camera.{name}.exr", layer("", values, "RGB"[:numpy.atleast_3d(values).shape[-1]]))
+    frame = gloam.read(tmp_path / "step3.camera.Depth.exr")
+    assert frame.camera.fx == pytest.approx(100, rel=1e-3) and any("is in camera space" in note for note in frame.notes)
+    assert_depth(frame["depth"], depth, 1e-4)
+
+
+def test_an_exr_of_more_than_depth_is_read_alone(planes, tmp_path):
+    """Names of a writer do not make a depth of a frame with planes of its own, nor of a picture that lies in a folder of that name alone."""
+    full = {**layer("", planes["depth"] * 2, "Z"), **layer("", planes["color"], "RGB")}
+    write_exr(tmp_path / "shot_Depth_0003.exr", full)
+    write_exr(tmp_path / "shot_Normal_0003.exr", layer("", planes["normal"], "RGB"))
+    frame = read(tmp_path / "shot_Depth_0003.exr")
+    assert set(frame.planes) == {"depth", "color"} and not any("named as by" in note for note in frame.notes)
+    save(tmp_path / "depth/beauty.exr", planes["color"])
+    assert read(tmp_path / "depth/beauty.exr").planes == ["color"]
+    write_exr(tmp_path / "other_Depth_0003.exr", grey_of_depth(planes))
+    assert_depth(read(tmp_path / "other_Depth_0003.exr")["depth"], planes["depth"], 0)
+    chosen = read(tmp_path / "other_Depth_0003.exr", channels={"depth": "G"})
+    assert_depth(chosen["depth"], planes["depth"], 0)
+
+
+def test_files_of_a_shot_of_passes(planes, tmp_path, command):
+    for number in (1, 2):
+        for name, values in {"WorldDepth": grey_of_depth(planes), "WorldNormal": planes["normal"]}.items():
+            save(tmp_path / f"FinalImage{name}.{number:04}.exr", values)
+    assert "2 frames as by Movie Render Queue" in command("ao", tmp_path, status=1)
+    told = command("run", "gtao", tmp_path / "FinalImageWorldDepth.####.exr", "--fov", 60, "--normal-space", "view", "--radius", 0.5, "-o", tmp_path / "ao.####.exr", "--float")
+    assert "named as by Movie Render Queue: normal from" in told
+    found = gloam.read(tmp_path / "ao.0002.exr", as_stored=True)["ao"]
+    frame = gloam.run("gtao", depth=planes["depth"], normal=planes["normal"], fov=60, radius=0.5)
+    assert numpy.abs(numpy.array(found) - numpy.array(frame["ao"])).max() < 1e-5
+
+
+def test_occlusion_darkens_the_illumination_of_hypersim(planes, tmp_path, command):
+    """color = diffuse_illumination x diffuse_reflectance + residual, of which AO darkens the illumination."""
+    pytest.importorskip("h5py")
+    generator = numpy.random.default_rng(7)
+    shape = (*planes["depth"].shape, 3)
+    illumination, reflectance, residual = ((low + generator.random(shape)).astype(numpy.float16).astype(numpy.float64) for low in (0.5, 0, 0))
+    geometry, final = tmp_path / "scene_cam_00_geometry_hdf5", tmp_path / "scene_cam_00_final_hdf5"
+    with numpy.errstate(invalid="ignore"):
+        save(geometry / "frame.0000.depth_meters.hdf5", WRITERS["Hypersim"][1](planes))
+    color = (illumination * reflectance + residual).astype(numpy.float16)
+    for name, values in {"color": color, "diffuse_illumination": illumination, "diffuse_reflectance": reflectance, "residual": residual}.items():
+        save(final / f"frame.0000.{name}.hdf5", values)
+    depth = geometry / "frame.0000.depth_meters.hdf5"
+    told = command("run", "ao", depth, "--radius", 0.5, "-o", tmp_path / "ao.exr", "--float", "--composite", tmp_path / "c.exr")
+    frame, ao = gloam.read(depth), gloam.read(tmp_path / "ao.exr", as_stored=True)["ao"][..., None]
+    assert numpy.array_equal(frame["illumination"], illumination) and "named as by Hypersim" in told
+    assert "darkens illumination times albedo" in told
+    expected = illumination * ao * reflectance + residual
+    surface = numpy.isfinite(planes["depth"])
+    step = 2.0**-10 + 1e-6  # half a step of halves between 2 and 4, as color is stored
+    picture = gloam.read(tmp_path / "c.exr", as_stored=True)["color"]
+    assert numpy.abs(picture - expected)[surface].max() <= step
+    assert numpy.abs(color * ao - expected)[surface].max() > 20 * step  # what darkening all of it would give
+    assert numpy.array_equal(picture[~surface], color[~surface])
+    result = gloam.auto(depth, composite=True, color_holds="ambient,shadows,indirect,reflection", radius=0.5)
+    own = illumination * result["ao"][..., None] * reflectance + residual
+    assert numpy.abs(result.composite - own)[surface].max() <= step
+    assert any("darkens illumination times albedo" in note for note in result.notes)
 
 
 def test_a_folder_gets_the_name_of_a_frame(planes, tmp_path, command):

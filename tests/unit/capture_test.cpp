@@ -267,17 +267,26 @@ const Tracer& fence_tracer() {
 
 constexpr int fence_width = 200, fence_height = 150;
 
-/// Depth, all layers, and a stochastic depth map if `samples` is not 0.
-Frame captured_fence(int samples, double alpha = 0.2, int seed = 0, bool orthographic = false) {
+/// The paper's map: of all surfaces, at random.
+StochasticOptions of_the_paper(int samples, double alpha = 0.2, int seed = 0) {
+  return {samples, alpha, seed, StochasticSurfaces::all, StochasticSubset::stratified};
+}
+
+/// Depth, all layers, and a stochastic depth map if there are samples.
+Frame captured_fence(const StochasticOptions& stochastic, bool orthographic = false) {
   SceneCamera camera = fence().cameras[0];
   camera.orthographic = orthographic;
   camera.width = 6;
   CaptureOptions options;
   options.width = fence_width, options.height = fence_height;
   options.peel = 64;
-  options.stochastic = {samples, alpha, seed};
+  options.stochastic = stochastic;
   options.views = {{"", camera_for(camera, fence_width, fence_height), {}}};
   return capture(fence_tracer(), options).frame;
+}
+
+Frame captured_fence(int samples, double alpha = 0.2, int seed = 0) {
+  return captured_fence(of_the_paper(samples, alpha, seed));
 }
 
 /// The map's and the peeled layers' channels of one view.
@@ -321,6 +330,8 @@ TEST(StochasticCapture, HasThePlanesAndSaysHowTheyWereMade) {
     EXPECT_EQ(Layered(frame.views[0]).samples.size(), size_t(samples));
     EXPECT_EQ(frame.numbers.at("gloamStochasticAlpha"), 0.3);
     EXPECT_EQ(frame.attributes.at("gloamStochasticSeed"), "12345");
+    EXPECT_EQ(frame.attributes.at("gloamStochasticSurfaces"), "all");
+    EXPECT_EQ(frame.attributes.at("gloamStochasticSubset"), "stratified");
     int held = 0;
     for_pixels([&](int x, int y) { held += std::isfinite(value(frame, "stochastic.00", x, y)); });
     EXPECT_GT(held, fence_width * fence_height / 20);
@@ -328,6 +339,12 @@ TEST(StochasticCapture, HasThePlanesAndSaysHowTheyWereMade) {
   const Frame none = captured_fence(0);
   EXPECT_EQ(none.views[0].find("stochastic.00"), nullptr);
   EXPECT_EQ(none.numbers.count("gloamStochasticAlpha"), 0u);
+  EXPECT_EQ(none.attributes.count("gloamStochasticSurfaces"), 0u);
+  const Frame usual = captured_fence(StochasticOptions{.samples = 4});
+  EXPECT_EQ(usual.attributes.at("gloamStochasticSurfaces"), "hidden");
+  EXPECT_EQ(usual.attributes.at("gloamStochasticSubset"), "nearest");
+  EXPECT_EQ(usual.numbers.count("gloamStochasticAlpha"), 0u) << "nothing is random";
+  EXPECT_EQ(usual.attributes.count("gloamStochasticSeed"), 0u);
 }
 
 TEST(StochasticCapture, AlphaOfZeroHoldsNothingAndOfOneTheDepth) {
@@ -367,14 +384,15 @@ struct Mean {
   double error() const { return std::sqrt((squares / double(count) - mean() * mean()) / double(count)); }
 };
 
-/// A sample holds layer i with probability alpha (1 - alpha)^(i - 1): it was offered this layer and none before it.
-void expect_layer_counts(const Layered& layered, int samples, double alpha, const std::string& what) {
-  for (int layer = 0; layer < 3; ++layer) {
+/// A sample holds layer i with probability alpha (1 - alpha)^(i - 1): it was offered this layer and none before it. Layers are
+/// counted from `first` on, the first that is offered; those before it are never held.
+void expect_layer_counts(const Layered& layered, int samples, double alpha, const std::string& what, int first = 0) {
+  for (int layer = 0; layer < 3 + first; ++layer) {
     Mean held;
     for_pixels([&](int x, int y) {
-      if (layered.has(x, y, 3)) held.add(std::popcount(layered.holders(x, y, layer, samples)));
+      if (layered.has(x, y, 3 + first)) held.add(std::popcount(layered.holders(x, y, layer, samples)));
     });
-    const double expected = samples * alpha * std::pow(1 - alpha, layer);
+    const double expected = layer < first ? 0 : samples * alpha * std::pow(1 - alpha, layer - first);
     ASSERT_GT(held.count, 1000) << what;
     EXPECT_LT(std::abs(held.mean() - expected), 4 * held.error() + 1e-6)
         << what << ", layer " << layer << ": " << held.mean() << " +- " << held.error() << ", expected " << expected;
@@ -390,6 +408,44 @@ TEST(StochasticCapture, LayersAreHeldAsOftenAsAlphaSays) {
       const Frame frame = captured_fence(samples, alpha);
       expect_layer_counts(Layered(frame.views[0]), samples, alpha, fmt::format("{} samples, alpha {}", samples, alpha));
     }
+  }
+}
+
+TEST(StochasticCapture, AmongHiddenLayersAlphaSaysHowOftenAndTheNearestSurfaceIsNeverHeld) {
+  for (const int samples : {1, 4, 5, 16}) {
+    for (const double alpha : {0.25, 0.35}) {
+      StochasticOptions options = of_the_paper(samples, alpha);
+      options.surfaces = StochasticSurfaces::hidden;
+      const Frame frame = captured_fence(options);
+      expect_layer_counts(Layered(frame.views[0]), samples, alpha,
+                          fmt::format("hidden, {} samples, alpha {}", samples, alpha), 1);
+    }
+  }
+}
+
+/// The default: sample j is hidden surface j, as far as there are so many.
+TEST(StochasticCapture, TheNearestSurfacesAreHeldFrontToBack) {
+  for (const auto surfaces : {StochasticSurfaces::all, StochasticSurfaces::hidden}) {
+    StochasticOptions options = {.samples = 5};
+    options.surfaces = surfaces;
+    options.subset = StochasticSubset::nearest;
+    const Frame frame = captured_fence(options);
+    const Layered layered(frame.views[0]);
+    int differing = 0, held = 0;
+    for_pixels([&](int x, int y) {
+      std::vector<float> expected;
+      for (int i = 0; i < layered.layers(x, y); ++i) {
+        const float surface = layered.surfaces[size_t(i)]->at(x, y);
+        if (surfaces == StochasticSurfaces::all || surface > layered.surfaces[0]->at(x, y)) expected.push_back(surface);
+      }
+      expected.resize(5, std::numeric_limits<float>::infinity());
+      for (size_t j = 0; j < 5; ++j) {
+        differing += layered.samples[j]->at(x, y) != expected[j];
+        held += std::isfinite(expected[j]);
+      }
+    });
+    EXPECT_EQ(differing, 0);
+    EXPECT_GT(held, 1000);
   }
 }
 
@@ -476,12 +532,15 @@ TEST(StochasticCapture, TheNearestSurfaceIsInEachSampleEquallyOften) {
 }
 
 /// The technique's result for a frame's peeled layers.
-Frame derived(Frame& frame, int samples, double alpha, int seed) {
+Frame derived(Frame& frame, const StochasticOptions& map) {
   RunOptions options;
-  options.seed = seed;
-  return test::outputs_of(
-      find_technique("stochastic-depth"), frame,
-      {{"samples", std::to_string(samples)}, {"alpha", fmt::format("{}", alpha)}, {"subset", "stratified"}}, options);
+  options.seed = map.seed;
+  return test::outputs_of(find_technique("stochastic-depth"), frame,
+                          {{"samples", std::to_string(map.samples)},
+                           {"alpha", fmt::format("{}", map.alpha)},
+                           {"surfaces", stochastic_surfaces()[size_t(map.surfaces)]},
+                           {"subset", stochastic_subsets()[size_t(map.subset)]}},
+                          options);
 }
 
 /// Moves the stochastic planes out of a frame.
@@ -494,11 +553,11 @@ std::map<std::string, Plane> without_map(View& view) {
   return planes;
 }
 
-void expect_same_map(Frame& frame, int samples, double alpha, int seed) {
+void expect_same_map(Frame& frame, const StochasticOptions& options) {
   std::vector<std::map<std::string, Plane>> captured;
   for (View& view : frame.views) {
     captured.push_back(without_map(view));
-    EXPECT_EQ(captured.back().size(), size_t(samples));
+    EXPECT_EQ(captured.back().size(), size_t(options.samples));
     float most = 0;
     for (int y = 0; y < frame.height(); ++y) {
       for (int x = 0; x < frame.width(); ++x) most = std::max(most, view.planes.at("peel_count").channels[0].at(x, y));
@@ -507,7 +566,7 @@ void expect_same_map(Frame& frame, int samples, double alpha, int seed) {
     EXPECT_LE(most, 64) << "all surfaces are stored";
   }
   normalise(frame);
-  const Frame made = derived(frame, samples, alpha, seed);
+  const Frame made = derived(frame, options);
   for (size_t v = 0; v < frame.views.size(); ++v) {
     for (const auto& [name, plane] : captured[v]) {
       const Plane* other = made.views[v].find(name);
@@ -531,9 +590,15 @@ TEST(StochasticCapture, TheSameBitsAsTheTechniqueMakes) {
     for (const auto& [samples, alpha, seed] :
          {std::tuple(1, 0.2, 0), std::tuple(4, 0.2, 7), std::tuple(16, 0.37, 2147483647), std::tuple(5, 1.0, 3),
           std::tuple(3, 0.4, 1), std::tuple(5, 0.2, 2), std::tuple(7, 0.3, 4), std::tuple(12, 0.15, 5)}) {
-      SCOPED_TRACE(fmt::format("{} samples, alpha {}, seed {}, orthographic {}", samples, alpha, seed, orthographic));
-      Frame frame = captured_fence(samples, alpha, seed, orthographic);
-      expect_same_map(frame, samples, alpha, seed);
+      for (const auto surfaces : {StochasticSurfaces::all, StochasticSurfaces::hidden}) {
+        for (const auto subset : {StochasticSubset::stratified, StochasticSubset::nearest}) {
+          const StochasticOptions options = {samples, alpha, seed, surfaces, subset};
+          SCOPED_TRACE(fmt::format("{} samples, alpha {}, seed {}, surfaces {}, subset {}, orthographic {}", samples,
+                                   alpha, seed, int(surfaces), int(subset), orthographic));
+          Frame frame = captured_fence(options, orthographic);
+          expect_same_map(frame, options);
+        }
+      }
     }
   }
 }
@@ -560,7 +625,7 @@ TEST(StochasticDepthOfLayers, EquationOneHoldsForEveryNumberOfSamples) {
   double all = 0;
   for (int samples = 1; samples <= 16; ++samples) {
     for (const double alpha : {0.2, 0.3, 0.37, 0.5}) {
-      const Frame map = derived(frame, samples, alpha, 1);
+      const Frame map = derived(frame, of_the_paper(samples, alpha, 1));
       std::vector<double> counts(size_t(samples) + 1, 0), in_sample(size_t(samples), 0);
       for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
@@ -604,7 +669,7 @@ TEST(StochasticDepthOfLayers, SixteenSamplesOfSixtyFour) {
     Channel& channel = test::plane_of(frame, layer_name("peel", i)).channels[0];
     for (int y = 0; y < height; ++y) std::fill_n(channel.row(y), width, depth_of(i));
   }
-  const Frame map = derived(frame, samples, alpha, 0);
+  const Frame map = derived(frame, of_the_paper(samples, alpha));
   std::vector<double> held(layers, 0);
   double empty = 0;
   for (int j = 0; j < samples; ++j) {
@@ -630,7 +695,7 @@ TEST(StochasticDepthOfLayers, SixteenSamplesOfSixtyFour) {
 TEST(StochasticCapture, IsOfAllSurfacesWhateverIsStored) {
   CaptureOptions options;
   options.width = fence_width, options.height = fence_height;
-  options.stochastic = {16, 0.2, 5};
+  options.stochastic = of_the_paper(16, 0.2, 5);
   options.views = {{"", camera_for(fence().cameras[0], fence_width, fence_height), {}}};
   const Frame all = captured_fence(16, 0.2, 5);
   for (const int peel : {0, 1}) {
@@ -655,7 +720,7 @@ TEST(StochasticCapture, TheUnitOfTheSceneChangesNothing) {
     const Tracer tracer(scene);
     CaptureOptions options;
     options.width = 65, options.height = 33;
-    options.stochastic = {8, 0.3, 1};
+    options.stochastic = of_the_paper(8, 0.3, 1);
     options.views = {{"", camera_for(scene.cameras[0], 65, 33), {}}};
     return capture(tracer, options).frame;
   };
@@ -683,7 +748,7 @@ CaptureOptions turned(const Scene& scene, double degrees, bool orthographic) {
   options.width = 96, options.height = 54;
   options.planes = {"normal", "position", "instance"};
   options.peel = 64;
-  options.stochastic = {4, 0.2, 3};
+  options.stochastic = of_the_paper(4, 0.2, 3);
   options.views = {{"", camera_for(camera, options.width, options.height), {}}};
   options.second_view = degrees;
   return options;
@@ -713,7 +778,7 @@ TEST(SecondView, HasAllPlanesOfTheFirst) {
     }
     EXPECT_EQ(planes[0], planes[1]);
     EXPECT_TRUE(planes[0].contains("stochastic.03") && planes[0].contains("peel.63") && planes[0].contains("normal"));
-    expect_same_map(frame, 4, 0.2, 3);
+    expect_same_map(frame, of_the_paper(4, 0.2, 3));
   }
 }
 

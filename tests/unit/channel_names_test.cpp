@@ -121,6 +121,84 @@ INSTANTIATE_TEST_SUITE_P(
         Spelled{"specular_occlusion", {"specular_occlusion"}}, Spelled{"contact", {"contact"}},
         Spelled{"environment", {"environment.R", "environment.G", "environment.B"}}, Spelled{"hit", {"hit.Z"}}));
 
+/// Names of layers with red, green and blue, by the plane that they are.
+TEST(ChannelNames, LightThatIsNotDarkened) {
+  const std::map<std::string, Names> layers = {
+      {"emission", {"ViewLayer.Emit", "emission", "VRaySelfIllumination", "selfIllum", "Emission", "emissive"}},
+      {"backdrop", {"ViewLayer.Env", "backdrop", "background", "VRayBackground"}},
+      {"volume", {"volume", "VRayAtmosphere", "atmosphere", "VolumeLighting", "ViewLayer.VolumeDir", "combinedvolume"}},
+      {"transmission", {"transmission", "VRayRefraction", "refract", "Refractions", "glossytransmission"}},
+      {"illumination", {"illumination", "diffuse_illumination"}},
+      {"albedo", {"diffuse_reflectance"}}};
+  for (const auto& [plane, names] : layers) {
+    for (const std::string& layer : names) {
+      const Names channels = {layer + ".R", layer + ".G", layer + ".B"};
+      EXPECT_EQ(found(channels, plane), channels) << layer;
+    }
+  }
+}
+
+Names with_colours(const Names& layers) {
+  Names channels;
+  for (const std::string& layer : layers)
+    for (const char* component : {".R", ".G", ".B"}) channels.push_back(layer + component);
+  return channels;
+}
+
+/// Layers of one component, and of three, as V-Ray, Corona, Redshift, Octane for Blender and Unity call them.
+TEST(ChannelNames, LayersOfRenderersWithoutAStandard) {
+  const std::map<std::string, Names> single = {
+      {"depth", {"VRayZDepth", "ZDepth", "CGeometry_ZDepth", "ViewLayer.OctZDepth", "Depth", "SceneDepth"}},
+      {"metallic", {"VRayMetalness", "Metal"}},
+      {"roughness", {"VRayRoughness"}}};
+  const std::map<std::string, Names> triple = {
+      {"normal",
+       {"VRayNormals", "VRayBumpNormals", "CGeometry_NormalsShading", "CGeometry_NormalsGeometry", "BumpNormals",
+        "Bump Normals", "ViewLayer.OctShadingNormal", "ViewLayer.OctSmoothNormal", "ViewLayer.OctGeoNormal"}},
+      {"albedo", {"VRayDiffuseFilter", "DiffuseFilter", "CShading_Albedo"}},
+      {"position", {"World Position", "WorldPosition", "CGeometry_WorldPosition", "ViewLayer.OctPosition"}},
+      {"emission", {"CESSENTIAL_Emission"}}};
+  for (const auto& [plane, layers] : single) {
+    for (const std::string& layer : layers) {
+      EXPECT_EQ(found({layer + ".R"}, plane), Names{layer + ".R"}) << layer;
+      EXPECT_EQ(found({layer + ".Z"}, plane), Names{layer + ".Z"}) << layer;
+    }
+  }
+  EXPECT_EQ(found({"VRayZDepth.red"}, "depth"), Names{"VRayZDepth.red"});
+  for (const auto& [plane, layers] : triple) {
+    for (const std::string& layer : layers) {
+      const Names capitals = {layer + ".R", layer + ".G", layer + ".B"},
+                  words = {layer + ".red", layer + ".green", layer + ".blue"};
+      EXPECT_EQ(found(capitals, plane), capitals) << layer;
+      EXPECT_EQ(found(words, plane), words) << layer;
+    }
+  }
+  EXPECT_EQ(said_of({"VRayNormals.R", "VRayNormals.G", "VRayNormals.B"}, "normal"), DeclaredConvention::view_space);
+  EXPECT_EQ(said_of({"VRayZDepth.Z"}, "depth"), DeclaredConvention::nothing) << "a grey is no planar distance";
+  // What may be positions, normals or anything else is taken for nothing, nor is Redshift's position in the object's space.
+  for (const char* layer : {"VRaySamplerInfo", "ObjectSpacePositions"})
+    for (const char* plane : {"position", "normal", "color"})
+      EXPECT_EQ(found(with_colours({layer}), plane), Names{}) << layer;
+  // The shading normals come before those of the faces.
+  EXPECT_EQ(found(with_colours({"CGeometry_NormalsGeometry", "CGeometry_NormalsShading"}), "normal"),
+            with_colours({"CGeometry_NormalsShading"}));
+}
+
+TEST(ChannelNames, LayersThatAreAddedUp) {
+  const Names volume = with_colours({"L.VolumeDir", "L.VolumeInd"}), light = with_colours({"L.DiffDir", "L.DiffInd"}),
+              glass = with_colours({"L.TransDir", "L.TransInd", "L.TransCol"});
+  EXPECT_EQ(found(volume, "volume"), volume);
+  EXPECT_EQ(said_of(volume, "volume"), DeclaredConvention::sum_of_layers);
+  EXPECT_EQ(found(glass, "transmission"), glass);
+  EXPECT_EQ(said_of(glass, "transmission"), DeclaredConvention::sum_times_last);
+  EXPECT_EQ(found(light, "illumination"), light);
+  // Layers of two view layers are not added, nor some of those of a product.
+  EXPECT_EQ(found(with_colours({"L.DiffDir", "M.DiffInd"}), "illumination"), Names{});
+  EXPECT_EQ(found(with_colours({"L.TransDir", "L.TransCol"}), "transmission"), Names{});
+  EXPECT_EQ(found(with_colours({"volume", "volume_direct", "volume_indirect"}), "volume"), with_colours({"volume"}));
+  EXPECT_EQ(found(with_colours({"CryptoObject00", "L.CryptoMaterial00"}), "color"), Names{});
+}
+
 TEST(ChannelNames, EachPlaneIsFoundInTheChannelsThatAreWrittenForIt) {
   for (const PlaneKind& kind : plane_kinds()) EXPECT_EQ(found(kind.channels, kind.name), kind.channels) << kind.name;
 }

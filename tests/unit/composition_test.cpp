@@ -158,6 +158,48 @@ TEST(Composition, WithoutAmbientAnEvenSkyOrAllOfTheColour) {
             std::string::npos);
 }
 
+/// Of the 0.6 of colour 0.25 is light that stays.
+const Planes with_light = with(lit, {{"emission", {0.125f, 0.125f, 0.125f}},
+                                     {"volume", {0.0625f, 0.0625f, 0.0625f}},
+                                     {"backdrop", {0.03125f, 0.03125f, 0.03125f}},
+                                     {"transmission", {0.03125f, 0.03125f, 0.03125f}}});
+
+TEST(Composition, LightThatIsNotDarkened) {
+  const Planes plain = without(with_light, "ambient");
+  expect_colour(picture(plain, {{"ao", {0.5f}}}), {0.425f, 0.425f, 0.425f});
+  expect_colour(picture(plain, {{"ao", {0}}}), {0.25f, 0.25f, 0.25f});
+  // Ambient light is at most what is left; contact shadows are of what is left then.
+  expect_colour(picture(with(with_light, {{"ambient", {9, 0.2f, 0.3f}}}), {{"ao", {0.5f}}}), {0.425f, 0.5f, 0.45f});
+  ComposeOptions unshadowed;
+  unshadowed.holds.shadows = false;
+  expect_colour(picture(with_light, {{"contact", {0}}}, unshadowed), {0.25f + 0.1f, 0.25f + 0.2f, 0.25f + 0.3f});
+  // Light of its own that is all of the colour, or more by noise: the bits stay.
+  EXPECT_EQ(picture(with(plain, {{"emission", {0.6f, 0.7f, 0.6f}}}), {{"ao", {0.5f}}}), (Colour{0.6f, 0.6f, 0.6f}));
+  const Composition composition =
+      composition_of({"color", "emission", "volume"}, {"ao"}, {.names_in_file = {{"emission", "L.Emit"}}});
+  EXPECT_EQ(composition.untouched, (Names{"emission", "volume"}));
+  ASSERT_EQ(composition.notes.size(), 2u);
+  EXPECT_NE(composition.notes[0].find("all of its colour but emission and volume"), std::string::npos);
+  EXPECT_NE(composition.notes[1].find("emission (L.Emit) and volume are not darkened"), std::string::npos);
+  EXPECT_TRUE(composition_of({"ambient", "color", "emission"}, {"reflection"}, {}).notes.empty());
+}
+
+TEST(Composition, IlluminationTimesAlbedoIsDarkened) {
+  const Planes lights = with(without(with_light, "ambient"), {{"illumination", {0.25f, 0.5f, 4}}});
+  expect_colour(picture(lights, {{"ao", {0.5f}}}), {0.6f - 0.1f, 0.6f - 0.125f, 0.6f - 0.175f});
+  // It holds direct light as well.
+  ComposeOptions unshadowed;
+  unshadowed.holds.shadows = false;
+  for (const char* part : {"contact", "environment"})
+    EXPECT_NE(why_not({"albedo", "color", "illumination"}, {part}, part, unshadowed).find("--ambient"),
+              std::string::npos);
+  EXPECT_EQ(composition_of({"color", "illumination"}, {"ao"}, {}).ambient, Composition::Ambient::colour);
+  EXPECT_EQ(composition_of({"albedo", "color", "illumination"}, {"ao"}, {}).ambient,
+            Composition::Ambient::illumination);
+  EXPECT_EQ(composition_of({"albedo", "ambient", "color", "illumination"}, {"ao"}, {}).ambient,
+            Composition::Ambient::plane);
+}
+
 TEST(Composition, WhatTheColourHoldsIsNotAdded) {
   const Planes parts = {{"ao", {0.5f}},          {"bounces", {1, 1, 1}},
                         {"indirect", {1, 1, 1}}, {"reflection", {1, 1, 1, 1}},

@@ -310,7 +310,7 @@ NormalSpace detect_normal_space(Plane& normal, const Channel& depth, const Windo
   NormalSamples samples(normal.channels.front().layout());
   samples.take(normal, 0);
   const NormalForm form = find_form(samples.pairs(depth, window, camera), camera.pose, {}, assumed);
-  bring_to_view_space(normal, {.is_encoded = form.is_encoded}, camera);
+  bring_to_view_space(normal, {.range = form.range}, camera);
   return form.space;
 }
 

@@ -14,6 +14,15 @@ Fit fitted_alone(const std::vector<FitGroup>& groups) {
   return fitted(std::vector<std::vector<FitGroup>>{groups}).front();
 }
 
+/// So many pixels of one truth, of which only the first term says anything.
+std::vector<FitSample> alike(size_t count, float truth) {
+  FitSample sample;
+  sample.terms.fill(0);
+  sample.terms[0] = 0.5f;
+  sample.truth = truth;
+  return std::vector<FitSample>(count, sample);
+}
+
 TEST(Fit, FindsTheCoefficientsThatMadeTheTruth) {
   Random random(7);
   Fit wanted;
@@ -34,7 +43,7 @@ TEST(Fit, ExpectsTheErrorThatIsLeft) {
   std::vector<FitSample> samples(40000);
   for (FitSample& s : samples) {
     s.terms.fill(0);
-    s.terms[0] = float(random.uniform(0.2, 0.6));
+    s.terms[0] = float(random.uniform(0.3, 0.6));  // no pixel is open, which would weigh more
     s.terms[1] = float(random.uniform(0, 0.4));
     s.truth = 1 - s.terms[0] + (random.one_in(2) ? 0.5f : -0.5f) * s.terms[1];
   }
@@ -73,16 +82,29 @@ TEST(Fit, WhatIsUnknownCountsAlikeForAllSamplings) {
 }
 
 TEST(Fit, PixelsCountByTheirWeight) {
-  std::vector<FitSample> dark(500), bright(500);
-  for (std::vector<FitSample>* list : {&dark, &bright}) {
-    for (FitSample& s : *list) {
-      s.terms.fill(0);
-      s.terms[0] = 0.5f;
-      s.truth = list == &dark ? 0.5f : 1.0f;
-    }
-  }
+  const std::vector<FitSample> dark = alike(500, 0.5f), bright = alike(500, 0.9f);
   const Fit fit = fitted_alone({{&dark, 0.25}, {&bright, 0.75}});
-  EXPECT_NEAR(fit.ao(dark.front()), 0.875, 1e-3);
+  EXPECT_NEAR(fit.ao(dark.front()), 0.8, 1e-3);
+}
+
+TEST(Fit, OpenPixelsCountMore) {
+  const std::vector<FitSample> open = alike(500, 1.0f), closed = alike(500, 0.5f);
+  const Fit fit = fitted_alone({{&open, 1}, {&closed, 1}});
+  EXPECT_NEAR(fit.ao(open.front()), (weight_of_open * 1 + 0.5) / (weight_of_open + 1), 1e-3);
+}
+
+TEST(Fit, TooDarkIsAShareOfTheOpenPixels) {
+  Fit fit;
+  fit.closed[0] = 1;
+  std::vector<FitSample> samples(4);
+  for (FitSample& s : samples) s.terms.fill(0);
+  EXPECT_EQ(share_too_dark(samples, fit), 0);
+  samples[0].terms[0] = 0.02f;
+  samples[1].terms[0] = 0.04f;
+  samples[2].terms[0] = 0.5f;
+  samples[2].truth = 0.9f;  // is not open
+  EXPECT_NEAR(share_too_dark(samples, fit), 1 / 3.0, 1e-9);
+  EXPECT_EQ(share_too_dark({samples[2]}, fit), 0);
 }
 
 TEST(Fit, ErrorIsThatOfClampedAmbientOcclusion) {
@@ -120,7 +142,7 @@ TEST(EvidenceSets, TellWhatAFileLacks) {
   EXPECT_EQ(message("{\"sets\": [{\"occluders\": \"depth\", \"directions\": 0}]}"),
             "my.json: 'directions' of a set has to be a whole number from 1 to 1024");
   EXPECT_EQ(message("{\"sets\": [{\"occluders\": \"depth\", \"directions\": 1, \"steps\": 9, \"closed\": [1]}]}"),
-            "my.json: 'closed' of a set has to be a list of 24 numbers; bench_fit writes such files");
+            "my.json: 'closed' of a set has to be a list of 26 numbers; bench_fit writes such files");
 }
 
 TEST(EvidenceSets, TheBuiltInOnesAreForEveryPresetAndKindOfOccluders) {

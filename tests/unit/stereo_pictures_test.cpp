@@ -40,7 +40,7 @@ TEST_F(StereoPictures, TheLegendIsNotCutBelowASmallPicture) {
     return dark;
   };
   const int in_full = purple_and_ink(1200);
-  EXPECT_GT(in_full, 500);
+  EXPECT_GT(in_full, 200);
   for (const int width : {1, 64, 320, 400}) EXPECT_EQ(purple_and_ink(width), in_full) << width;
 }
 

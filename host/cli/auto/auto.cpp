@@ -9,6 +9,7 @@
 #include "cli/flags/given_flags.h"
 #include "cli/flags/memory.h"
 #include "cli/flags/radius.h"
+#include "cli/flags/result_name.h"
 #include "cli/flags/time_budget.h"
 #include "cli/shot/shot.h"
 #include "gloam/error.h"
@@ -88,14 +89,19 @@ void run_on_one_frame(const AutoCommand& flags) {
     const bool keeps_depth = flags.shot.keep_depth || result.frame.views.front().planes.empty();
     for (View& view : result.frame.views)
       if (keeps_depth) view.planes["depth"] = std::move(frame.view(view.name).planes.at("depth"));
-    if (!flags.frame_flags.changes_depth()) name_frame(result.frame, flags.frame.frame, flags.out);
+    if (flags.frame.other_eye.empty() && !flags.frame_flags.changes_depth())
+      name_frame(result.frame, flags.frame.frame, flags.out);
+    if (flags.is_out_made) result.frame.attributes[named_by_gloam] = frame_seen_from(flags.frame.frame, flags.out);
     write_frame(flags.out, result.frame, writing);
   }
   if (result.spent)
     if (const std::string missed = note_on_goal(*result.spent, flags.goal); !missed.empty()) note({missed});
   Json document = document_of(result, flags.goal, device.info());
   document["memory_bytes"] = memory;
-  if (composition) document["composite"] = composition_document(*composition);
+  if (composition) {
+    document["composite"] = composition_document(*composition);
+    document["not_darkened"] = composition->untouched;
+  }
   if (radius) radius->add_to(document);
   flags.json.write(document, written);
   if (flags.json.only_json()) return;
@@ -105,11 +111,20 @@ void run_on_one_frame(const AutoCommand& flags) {
   print_written(written);
 }
 
-/// Throws UsageError where nothing would be written, and for a flag that has no effect on any of the files.
+/// A picture in place of the frame to write is that of --explain; where nothing is named, the result lies beside the frame.
+void settle_files(AutoCommand& flags) {
+  if (std::filesystem::path(flags.out).extension() == ".png" && !flags.frame.has_pattern()) {
+    if (!flags.explain.empty())
+      throw UsageError("-o {}: is a picture, and --explain {} another; leave one out", flags.out, flags.explain);
+    flags.explain.swap(flags.out);
+  }
+  if (!flags.out.empty() || !flags.composite.path.empty() || !flags.explain.empty()) return;
+  flags.out = name_beside(flags.frame, "auto", "auto");
+  flags.is_out_made = true;
+}
+
+/// Throws UsageError for a flag that has no effect on any of the files.
 void check_files_written(const AutoCommand& flags) {
-  if (flags.out.empty() && flags.composite.path.empty() && flags.explain.empty())
-    throw UsageError(
-        "auto: nothing is to be written; give --output OUT.exr, --composite PICTURE.exr or --explain WHY.png");
   if (!flags.out.empty()) return check_frame_name(flags.out, "-o");
   for (const auto& [flag, is_given] : {std::pair("--half", flags.half), std::pair("--float", flags.shot.as_float),
                                        std::pair("--keep-depth", flags.shot.keep_depth)}) {
@@ -119,6 +134,7 @@ void check_files_written(const AutoCommand& flags) {
 
 void auto_command(const AutoCommand& given, const CLI::App& command) {
   AutoCommand flags = given;
+  settle_files(flags);
   check_files_written(flags);
   check_picture_name(flags.explain, "--explain");
   if (!flags.composite.path.empty()) check_frame_name(flags.composite.path, "--composite");
@@ -139,7 +155,10 @@ void add_auto(CLI::App& app) {
   auto flags = std::make_shared<AutoCommand>();
   CLI::App* command = app.add_subcommand("auto", "look at a frame, and compute only the effects that it calls for");
   flags->frame.add_to(*command);
-  add_text(*command, "-o,--output", flags->out, "OUT.exr", "EXR file to write, with the planes of all effects");
+  add_text(
+      *command, "-o,--output", flags->out, "OUT.exr",
+      "EXR file to write, with the planes of all effects, or the picture of --explain, OUT.png; default: beside the "
+      "frame, frame_auto.exr");
   add_text(*command, "--explain", flags->explain, "OUT.png", "picture of what is called for where, and why");
   add_choice(
       *command, "--mask", flags->mask, mask_words,
@@ -167,6 +186,7 @@ void add_auto(CLI::App& app) {
   command->footer(
       "What a frame does not call for is written as if computed: AO of 1, reflections of 0.\n"
       "Examples:\n"
+      "  gloam auto frame.exr\n"
       "  gloam auto frame.exr -o out.exr\n"
       "  gloam auto frame.exr -o out.exr --explain why.png --measure --repeat 9\n"
       "  gloam auto frame.exr -o out.exr --budget 30ms\n"

@@ -19,6 +19,7 @@ struct AutoCommand {
   std::optional<MaskUse> mask;
   BudgetGoal goal;
   bool half = false, measure = false;
+  bool is_out_made = false;  ///< `out` was made of the frame's name
   FrameArguments frame;
   FrameFlags frame_flags;
   TechniqueFlags technique_flags;

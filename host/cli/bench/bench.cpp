@@ -120,7 +120,8 @@ struct MeasuredSubjects {
 
 /// Measures the effects on the user's own frame, else on the scenes.
 MeasuredSubjects measure_subjects(const BenchCommand& flags, const BenchOptions& options, const BenchFile& written,
-                                  TimeLimit& limit, Device& device, Measurement& result) {
+                                  TimeLimit& limit, Device& device, Measurement& result,
+                                  const std::function<void()>& keep) {
   MeasuredSubjects measured;
   const bool is_own = !flags.frame.empty();
   const size_t frames = is_own ? 1 : options.scenes.size();
@@ -139,6 +140,7 @@ MeasuredSubjects measure_subjects(const BenchCommand& flags, const BenchOptions&
         measured.radii.emplace_back(subject.name, report_of(subject, options.techniques));
       of_effect.limit = limit.part(1.0 / double(left--));
       measure(subject, of_effect, i == 0, device, result);
+      if (left > 0 && !result.rows.empty()) keep();
     }
   }
   return measured;
@@ -195,7 +197,18 @@ void bench_command(const BenchCommand& given) {
     options.progress = [&limit](const std::string& what, double share) {
       show_status(fmt::format("{}, {} left", what, time_words(limit.left())), share);
     };
-  const MeasuredSubjects measured = measure_subjects(flags, options, written, limit, device, result);
+  // What a run is compared with is kept until all is measured.
+  const auto keep = [&] {
+    if (before) return;
+    Json document = report::document_of(results_of(result, options, device.info()));
+    document["time_limit_s"] = limit.is_set() ? Json(flags.time) : Json(nullptr);
+    say_on_interruption(
+        "bench.json is whole, as it was or with the scenes that were measured; the same command measures all of them "
+        "again");
+    written.write(document);
+    say_on_interruption("bench.json holds the scenes that were measured; the same command measures all of them again");
+  };
+  const MeasuredSubjects measured = measure_subjects(flags, options, written, limit, device, result, keep);
   erase_status();
   note(result.notes);
   if (result.rows.empty() && !result.left_out.empty())

@@ -8,6 +8,7 @@
 #include "exr/read_words.h"
 #include "gloam/error.h"
 #include "gloam/frame_pattern.h"
+#include "normalise/depth_encoding.h"
 #include "normalise/normal_axes.h"
 
 namespace gloam::cli {
@@ -101,8 +102,11 @@ void FrameFlags::add_to(CLI::App& app) {
   add_number(app, "--depth-offset", depth_offset, {-most_float, most_float}, "and this is added", "VALUE");
   add_choice(app, "--depth-bytes", depth_bytes, depth_bytes_words,
              "depth of 24 bits in three bytes: red is the lowest, or the highest");
+  add_parsed(app, "--depth-encoding", depth_encoding, parse_depth_encoding,
+             "what was done to stored depth: srgb (the curve), bottom-up (rows), wrapped (16 bits); plain: nothing",
+             "A,B");
   add_choice(app, "--normal-space", normals.space, normal_space_words, "space of the normals");
-  add_choice(app, "--normal-range", normals.range, normal_range_words, "normals from -1 to 1, or from 0 to 1");
+  add_choice(app, "--normal-range", normals.range, normal_range_words, "normals from -1 to 1, from 0 to 1, or that with the sRGB curve");
   add_parsed(app, "--normal-axes", normals.axes, parse_normal_axes,
              "the axis that each component of the normals lies along: x,-y,z has y down; auto", "X,Y,Z");
   add_text(app, "--plane", planes, "PLANE=CHANNELS",
@@ -120,7 +124,7 @@ void FrameFlags::add_to(CLI::App& app) {
 
 bool FrameFlags::changes_depth() const {
   return near || far || background || depth_scale || depth_offset || depth_bytes != DepthBytes::automatic ||
-         planes_with_files(*this).count("depth") > 0 || depth != DepthConvention::automatic ||
+         depth_encoding || planes_with_files(*this).count("depth") > 0 || depth != DepthConvention::automatic ||
          std::any_of(planes.begin(), planes.end(),
                      [](const std::string& plane) { return plane.starts_with("depth="); });
 }
@@ -136,6 +140,7 @@ ReadOptions FrameFlags::read_options() const {
   options.depth_scale = depth_scale;
   options.depth_offset = depth_offset;
   options.depth_bytes = depth_bytes;
+  options.depth_encoding = depth_encoding;
   options.plane_files = planes_with_files(*this);
   options.normals = normals;
   if (!view.empty()) options.views = {view};

@@ -24,6 +24,7 @@ struct FrameFlags {
   DepthConvention depth = DepthConvention::automatic;
   std::optional<double> depth_scale, depth_offset;
   DepthBytes depth_bytes = DepthBytes::automatic;
+  std::optional<DepthEncoding> depth_encoding;
   NormalConvention normals;
   std::string depth_file, normal_file, color_file;
   std::vector<std::string> plane_files;

@@ -8,10 +8,12 @@
 #include "cli/flags/radius.h"
 #include "cli/flags/shot_flags.h"
 #include "cli/flags/wrap.h"
+#include "cli/info/light.h"
 #include "cli/info/shot.h"
 #include "cli/info/verdict.h"
 #include "cli/info/views.h"
 #include "exr/camera_facts.h"
+#include "exr/channel_sums.h"
 #include "exr/plane_facts.h"
 #include "gloam/error.h"
 #include "gloam/frame_pattern.h"
@@ -151,14 +153,18 @@ void print_info(const FrameFile& file, const std::vector<PlaneFacts>& facts, con
   for (const PlaneFacts& f : facts) {
     std::vector<std::string> names;
     for (const ChannelSource& channel : f.source.channels) names.push_back(channel.name);
+    if (is_sum(f.source)) names = {layers_in_words(f.source)};
     const auto figure = [&](double value) { return f.counted ? fmt::format("{:.4g}", value) : "-"; };
     rows.push_back({f.source.plane, f.source.view, fmt::format("{}", fmt::join(names, " ")), types_of(f.source),
                     figure(f.min), figure(f.max), figure(f.mean), std::to_string(f.nonfinite)});
   }
   print_table(rows, 4);
-  const std::vector<std::string> unread = unread_channels(file);
+  const std::vector<Cryptomatte> cryptomattes = cryptomattes_of(file.path());
+  const std::vector<std::string> unread = without_channels_of(cryptomattes, unread_channels(file));
   if (facts.empty()) fmt::print("no plane that gloam knows\n");
   if (!unread.empty()) fmt::print("{}\n", wrapped("not read: " + printable(first_names(unread)), 0, 2));
+  for (const std::string& line : light_in_words(file)) fmt::print("{}\n", wrapped(printable(line), 0, 2));
+  for (const std::string& line : lines_on(cryptomattes)) fmt::print("{}\n", wrapped(printable(line), 0, 2));
   fmt::print("\n");
   for (const auto& [view, camera] : document["cameras"].items())
     fmt::print("camera {}{}\n", view.empty() ? "" : "of " + printable(view) + ": ", printable(camera_line(camera)));
@@ -182,6 +188,7 @@ Json planes_document(const std::vector<PlaneFacts>& facts) {
                       {"view", f.source.view},
                       {"channels", channels},
                       {"type", types_of(f.source)},
+                      {"help", plane_kind(f.source.plane).help},
                       {"min", figure(f.min)},
                       {"max", figure(f.max)},
                       {"mean", figure(f.mean)},
@@ -276,6 +283,7 @@ void describe(const InfoFlags& flags, std::vector<std::string> pictures) {
                    {"runs", abilities.runs},
                    {"lacks", abilities.lacks},
                    {"unread", unread_channels(file)},
+                   {"cryptomattes", names_of(cryptomattes_of(file.path()))},
                    {"memory_bytes", memory}};
   add_cameras(file, options, document);
   const std::vector<std::string> for_blender = lines_for_blender(file);
@@ -305,7 +313,7 @@ void info_on_shot(const InfoFlags& flags) {
     throw UsageError("{}: is a shot, and pictures show one frame; name the file of a frame", flags.frame);
   if (flags.lacks) throw UsageError("--lacks: is told of one frame; name the file of a frame of {}", flags.frame);
   check_paths({}, {{"--json", flags.json.file()}});
-  describe_shot(flags.frame, flags.choice, flags.frame_flags, flags.json);
+  describe_shot(flags.frame, flags.choice, flags.frame_flags, flags.json, reading_text(*flags.app));
 }
 
 void info_command(const InfoFlags& flags) {

@@ -4,6 +4,9 @@
 #include <iterator>
 #include <map>
 
+#include "cli/flags/wrap.h"
+#include "cli/info/verdict.h"
+#include "exr/camera_facts.h"
 #include "gloam/error.h"
 #include "gloam/frame_numbers.h"
 #include "gloam/frame_pattern.h"
@@ -19,6 +22,7 @@ struct FrameRow {
   std::string size, error;
   std::vector<std::string> views, planes;
   std::string camera;
+  FoundOnShotFrame found;
   std::string unused_camera;  ///< why a camera is not used that was given, or lies beside the frame; empty: none
 };
 
@@ -33,7 +37,8 @@ std::string camera_sources(const FrameFile& file) {
 }
 
 FrameRow row_of(int frame, const std::filesystem::path& path, const ReadOptions& options) {
-  FrameRow row{frame, path, {}, {}, {}, {}, {}, {}};
+  FrameRow row{frame, path, {}, {}, {}, {}, {}, {}, {}};
+  row.found.frame = frame;
   try {
     FrameFile file(path, options);
     file.fit_cameras();
@@ -41,6 +46,9 @@ FrameRow row_of(int frame, const std::filesystem::path& path, const ReadOptions&
     if (file.views() != std::vector<std::string>{""}) row.views = file.views();
     for (const PlaneSource& plane : file.planes()) add_new(row.planes, plane.plane);
     row.camera = camera_sources(file);
+    Json cameras;
+    add_cameras(file, options, cameras);
+    row.found = found_on(frame, file, cameras.contains("camera_from") ? cameras["camera_from"].get<std::string>() : "");
     for (const std::string& sentence : file.camera_notes())
       if (sentence.starts_with("camera: ") && sentence.find("not used") != std::string::npos)
         row.unused_camera = sentence;
@@ -117,9 +125,25 @@ Json document_of(const std::string& pattern, const std::vector<FrameRow>& rows,
   return {{"pattern", pattern}, {"frames", frames}, {"missing", missing}, {"differs", differs}};
 }
 
+/// The command that computes ambient occlusion of the shot, beside it.
+std::string command_for(const std::filesystem::path& pattern, const FrameChoice& choice, const std::string& reading) {
+  std::filesystem::path out = pattern.parent_path() / ("ao_" + pattern.filename().string());
+  std::string frames = choice.frames ? " --frames " + frames_in_words(*choice.frames) : "";
+  frames.erase(std::remove(frames.begin() + std::min<size_t>(frames.size(), 10), frames.end(), ' '), frames.end());
+  return printable(fmt::format("gloam ao {} -o {}{}{}", quoted_for_shell(pattern.string()),
+                               quoted_for_shell(out.replace_extension(".exr").string()), frames, reading));
+}
+
+std::string verdict_of(const std::vector<FrameRow>& rows, const std::string& command) {
+  std::vector<FoundOnShotFrame> found;
+  for (const FrameRow& row : rows) found.push_back(row.found);
+  return verdict_on_shot(found, command);
+}
+
 void print_shot(const std::string& pattern, const std::vector<FrameRow>& rows,
                 const std::vector<DifferenceInShot>& differences, const std::vector<int>& missing) {
-  fmt::print("{}: {} frames, {} to {}\n\n", printable(pattern), rows.size(), rows.front().frame, rows.back().frame);
+  fmt::print("{}: {}, {} to {}\n\n", printable(pattern), counted(rows.size(), "frame"), rows.front().frame,
+             rows.back().frame);
   std::vector<std::vector<std::string>> table = {{"frame", "size", "camera", "views", "planes"}};
   for (const FrameRow& row : rows)
     table.push_back({std::to_string(row.frame), row.error.empty() ? row.size : "-", row.camera,
@@ -145,8 +169,8 @@ std::map<std::string, std::vector<int>> unused_cameras(const std::vector<FrameRo
 
 }  // namespace
 
-void describe_shot(const std::string& pattern, const FrameChoice& choice, const FrameFlags& flags,
-                   const JsonFlag& json) {
+void describe_shot(const std::string& pattern, const FrameChoice& choice, const FrameFlags& flags, const JsonFlag& json,
+                   const std::string& reading) {
   ReadOptions options = flags.read_options();
   options.only_looks = true;
   const FramePattern files(pattern, "FRAME.exr");
@@ -159,7 +183,10 @@ void describe_shot(const std::string& pattern, const FrameChoice& choice, const 
   const std::vector<int> missing = missing_frames(rows, choice);
   const std::vector<DifferenceInShot> differences = differences_of(rows);
   json.write(document_of(pattern, rows, differences, missing));
-  if (!json.only_json()) print_shot(pattern, rows, differences, missing);
+  if (!json.only_json()) {
+    fmt::print("{}\n\n", wrapped(verdict_of(rows, command_for(pattern, choice, reading)), 0, 0));
+    print_shot(pattern, rows, differences, missing);
+  }
   const auto unused = unused_cameras(rows);
   for (const auto& [why, numbers] : unused)
     note({fmt::format("{}: {}",

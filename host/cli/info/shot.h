@@ -9,7 +9,7 @@
 namespace gloam::cli {
 
 /// Reads headers alone. Throws Error if no frame is there, and at the end if a frame cannot be read.
-void describe_shot(const std::string& pattern, const FrameChoice& choice, const FrameFlags& flags,
-                   const JsonFlag& json);
+void describe_shot(const std::string& pattern, const FrameChoice& choice, const FrameFlags& flags, const JsonFlag& json,
+                   const std::string& reading);
 
 }  // namespace gloam::cli

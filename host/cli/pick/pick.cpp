@@ -222,6 +222,7 @@ void add_pick(CLI::App& app) {
   flags->app = command;
   add_text(*command, "frame", flags->frame, "FRAME.exr", "EXR file")->required();
   add_frames(*command, flags->choice);
+  add_missing_without_hold(*command, flags->choice);
   add_parsed(*command, "--budget", flags->budget, parse_budget, "time for the whole of the effect, its filter included",
              "20ms");
   add_number(*command, "--error", flags->error, {0, 1},

@@ -22,6 +22,12 @@ std::string meant_by_first_word(const std::string& word);
 /// Where the command lacks its frame, since the first of its two words is one: what was probably meant; empty elsewhere.
 std::string meant_without_technique(const CLI::App& command);
 
+/// What the command cannot go without and was not given, with an example; empty where all is there.
+std::string lacking_in_words(const CLI::App& command, const std::string& name);
+
+/// The flag that was given more often than it can be; empty where there is none.
+std::string repeated_in_words(const CLI::App& command, const std::string& name);
+
 /// Throws UsageError where a frame has the place of the technique.
 void check_order(const std::string& command, const std::string& technique, const std::string& frame);
 

@@ -8,6 +8,7 @@
 #include "cli/flags/memory.h"
 #include "cli/flags/options.h"
 #include "cli/flags/radius.h"
+#include "cli/flags/result_name.h"
 #include "cli/run/command.h"
 #include "cli/run/outputs.h"
 #include "gloam/compute.h"

@@ -3,8 +3,7 @@
 #include <filesystem>
 
 #include "base/file_identity.h"
-#include "base/file_ledger.h"
-#include "exr/writers.h"
+#include "cli/flags/result_name.h"
 #include "gloam/error.h"
 
 namespace gloam::cli {
@@ -36,34 +35,6 @@ std::string plane_to_composite(const CompositeFlags& flags, const Plan& plan) {
   return plane;
 }
 
-/// Whether a file is a result that got its name from this very frame, by an earlier call.
-bool is_own_result(const std::filesystem::path& path, const std::string& frame) {
-  const LooksAtFiles looks;
-  try {
-    const FrameFile file(path, {.only_looks = true, .as_stored = true});
-    return file.text_attribute(named_by_gloam) == frame_seen_from(frame, path.string());
-  } catch (const Error&) {
-    return false;
-  }
-}
-
-/// frame_ao.exr beside frame.exr. Throws UsageError for what has no such place, and Error if a file of that name would be lost.
-std::string name_beside(const FrameArguments& frame, const std::string& technique) {
-  const std::filesystem::path path(frame.frame);
-  std::error_code unknown;
-  if (frame.has_pattern())
-    throw UsageError("run: the results of a shot have no name; give one, such as -o '{}.####.exr'", technique);
-  if (std::filesystem::is_directory(path, unknown))
-    throw Error("{}: is a folder; {}", path.string(), advice_on_folder(path));
-  if (std::filesystem::exists(path, unknown) && !std::filesystem::is_regular_file(path, unknown))
-    throw UsageError("run: the result has no name; give one, such as -o {}.exr", technique);
-  const std::filesystem::path out = path.parent_path() / fmt::format("{}_{}.exr", path.stem().string(), technique);
-  if (std::filesystem::exists(std::filesystem::symlink_status(out, unknown)) && !is_own_result(out, frame.frame))
-    throw Error("{} is there, and is not the result of an earlier call on this frame; name the result with -o OUT.exr",
-                out.string());
-  return out.string();
-}
-
 }  // namespace
 
 void settle_outputs(RunCommand& flags) {
@@ -73,7 +44,7 @@ void settle_outputs(RunCommand& flags) {
     flags.picture.swap(flags.out);
   }
   if (!flags.out.empty() || !flags.into.empty() || !flags.composite.path.empty() || !flags.picture.empty()) return;
-  flags.out = name_beside(flags.frame, flags.technique);
+  flags.out = name_beside(flags.frame, "run", flags.technique);
   flags.is_out_made = true;
 }
 

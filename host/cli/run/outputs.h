@@ -10,9 +10,6 @@
 
 namespace gloam::cli {
 
-/// Attribute of a result that lies beside its frame since nobody named it: the frame, as `frame_seen_from` the result.
-inline constexpr const char* named_by_gloam = "gloamNamed";
-
 /// Decides what is written: -o OUT.png is --picture OUT.png, and where nothing is said, the result lies beside the frame,
 /// frame_ao.exr of frame.exr. Throws UsageError for two pictures and for a shot, and Error where a file of that name is not such a result.
 void settle_outputs(RunCommand& flags);

@@ -70,6 +70,7 @@ void add_run(CLI::App& app) {
       "Examples:\n"
       "  gloam ao frame.exr\n"
       "  gloam run ao frame.exr -o ao.exr --picture ao.png\n"
+      "  gloam ao --depth-file depth.png --normal-file normal.png --depth-scale 0.001 --fov 60\n"
       "  gloam run ao frame.exr --into with_ao.exr\n"
       "  gloam run ao frame.exr --composite graded.exr --composite-strength 0.8 --tint 0.1,0.05,0\n"
       "  gloam run hbao+ frame.exr -o ao.exr --radius 0.3\n"

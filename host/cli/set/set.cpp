@@ -146,7 +146,17 @@ void tell_ledger(const Recipe& recipe, const fs::path& folder) {
   }
 }
 
+/// Throws UsageError for a folder that looks like a file.
+void check_folder_name(const std::string& out) {
+  const std::string extension = lower(fs::path(out).extension().string());
+  if (contains(std::vector<std::string>{".json", ".exr", ".png", ".html"}, extension))
+    throw UsageError(
+        "-o {}: is the folder to make the set in, and looks like a file; name a folder, such as sets/gloam-1{}", out,
+        extension == ".json" ? ", and --json FILE for the figures" : "");
+}
+
 void make(const SetCommand& flags) {
+  check_folder_name(flags.out);
   if (flags.name.empty()) throw UsageError("set make: needs the name of a set; gloam set list shows them");
   Recipe recipe = find_recipe(flags.name);
   if (flags.seed) recipe = seeded_recipe(recipe, uint64_t(*flags.seed));

@@ -114,9 +114,9 @@ void ShotReport::print(const std::string& output, const std::string& contents) c
   if (done_ > 0) {
     fmt::print("{:.1f} s, {:.2f} frames a second; a frame: decode {:.0f} ms, compute {:.0f} ms, write {:.0f} ms\n",
                seconds(), double(done_) / seconds(), sums_.decode / done, sums_.compute / done, sums_.write / done);
-    fmt::print("wrote {} frames, {} ({})\n", done_, printable(output), contents);
+    fmt::print("wrote {}, {} ({})\n", counted(done_, "frame"), printable(output), contents);
   }
-  if (skipped_ > 0) fmt::print("left {} frames alone, which are whole and were made in the same way\n", skipped_);
+  if (skipped_ > 0) fmt::print("left {} alone, whole and made in the same way\n", counted(skipped_, "frame"));
 }
 
 void ShotReport::finish(const std::string& output, const std::string& contents) {

@@ -163,7 +163,7 @@ class Sequence:
                  missing: Optional[str] = None, camera: Union[Camera, Path, None] = None, fov: Optional[float] = None,
                  depth_is: Optional[str] = None, depth: Optional[str] = None, near: Optional[float] = None, far: Optional[float] = None,
                  background: Optional[float] = None, depth_scale: Optional[float] = None, depth_offset: Optional[float] = None,
-                 depth_bytes: Optional[str] = None, plane_files: Optional[Dict[str, Path]] = None, normals_are: Optional[str] = None, normal_space: Optional[str] = None, normal_range: Optional[str] = None,
+                 depth_bytes: Optional[str] = None, depth_encoding: Optional[str] = None, plane_files: Optional[Dict[str, Path]] = None, normals_are: Optional[str] = None, normal_space: Optional[str] = None, normal_range: Optional[str] = None,
                  normal_axes: Optional[str] = None, views: Union[str, List[str], None] = None,
                  channels: Optional[Dict[str, str]] = None) -> None: ...
     @property
@@ -246,7 +246,7 @@ def pick(frame: Union[Frame, Path, None] = None, *, budget: Optional[float] = No
 def read(file: Union[Path, _Sequence[Path]], *, camera: Union[Camera, Path, None] = None, fov: Optional[float] = None,
          depth_is: Optional[str] = None, depth: Optional[str] = None, near: Optional[float] = None, far: Optional[float] = None,
          background: Optional[float] = None, depth_scale: Optional[float] = None, depth_offset: Optional[float] = None,
-                 depth_bytes: Optional[str] = None, plane_files: Optional[Dict[str, Path]] = None, normals_are: Optional[str] = None, normal_space: Optional[str] = None, normal_range: Optional[str] = None, normal_axes: Optional[str] = None,
+                 depth_bytes: Optional[str] = None, depth_encoding: Optional[str] = None, plane_files: Optional[Dict[str, Path]] = None, normals_are: Optional[str] = None, normal_space: Optional[str] = None, normal_range: Optional[str] = None, normal_axes: Optional[str] = None,
          views: Union[str, List[str], None] = None, channels: Optional[Dict[str, str]] = None,
          planes: Union[str, List[str], None] = None, as_stored: bool = False) -> Frame: ...
 def write(path: Path, what: Union[Frame, Result, Mapping[str, Plane], Any], *, plane: Optional[str] = None, camera: Union[Camera, List[Camera], None] = None,

@@ -10,7 +10,7 @@ from ._gloam import Error, Frame, UsageError
 
 
 def read(file, *, camera=None, fov=None, depth_is=None, depth=None, near=None, far=None, background=None, depth_scale=None,
-         depth_offset=None, depth_bytes=None, plane_files=None, normals_are=None, normal_space=None, normal_range=None, normal_axes=None, views=None,
+         depth_offset=None, depth_bytes=None, depth_encoding=None, plane_files=None, normals_are=None, normal_space=None, normal_range=None, normal_axes=None, views=None,
          channels=None, planes=None, as_stored=False):
     """Reads a frame from an EXR file, or an image of another format (PNG, TIFF, PFM, HDR, NPY, NPZ, HDF5), and returns a gloam.Frame. What is not stated and has to be assumed is in its `notes`.
 
@@ -21,8 +21,9 @@ def read(file, *, camera=None, fov=None, depth_is=None, depth=None, near=None, f
         ndc and reversed, scene units.  background: the depth value that means background.  depth: another name of depth_is.
     depth_scale, depth_offset: what is stored, times the scale, plus the offset, is what depth_is says: 0.001 makes metres of millimetres.
     depth_bytes: "low-first" or "high-first": of depth of 24 bits in three bytes, red is the lowest or the highest; default: found.
+    depth_encoding: what was done to stored depth, "srgb", "bottom-up" and "wrapped" (16 bits), with commas between, or "plain"; default: found.
     plane_files: {"normal": "n.png"}: planes in files of their own, in place of those of the file.
-    normals_are: as for gloam.run; or one by one, normal_space: "auto", "view" or "world".  normal_range: "auto", "signed" (-1 to 1) or "unsigned" (0 to 1).  normal_axes: "auto", or the axis
+    normals_are: as for gloam.run; or one by one, normal_space: "auto", "view" or "world".  normal_range: "auto", "signed" (-1 to 1), "unsigned" (0 to 1) or "srgb" (that with the curve of a picture).  normal_axes: "auto", or the axis
         that each component lies along: "x,-y,z" has y down. What is not stated is found by the depth.
     views: names of the views to read.  channels: {"depth": "Layer.Z"}: channels or layers that planes are taken from, or "none".
     planes: names of the planes to read; default: all that every view has.
@@ -31,7 +32,7 @@ def read(file, *, camera=None, fov=None, depth_is=None, depth=None, near=None, f
     Raises gloam.Error for a file that cannot be read, naming it.
     """
     words = _words.reading(camera, fov=fov, depth_is=depth_is, depth=depth, near=near, far=far, background=background, depth_scale=depth_scale,
-                           depth_offset=depth_offset, depth_bytes=depth_bytes, plane_files=plane_files, views=views, channels=channels, as_stored=as_stored, normals_are=normals_are, normal_space=normal_space, normal_range=normal_range, normal_axes=normal_axes)
+                           depth_offset=depth_offset, depth_bytes=depth_bytes, depth_encoding=depth_encoding, plane_files=plane_files, views=views, channels=channels, as_stored=as_stored, normals_are=normals_are, normal_space=normal_space, normal_range=normal_range, normal_axes=normal_axes)
     paths = _run._files(file)
     if paths is None:
         raise _words.refusal(f"file is of type {type(file).__name__}; a path is allowed, or a list of two paths, one for each eye")
@@ -140,7 +141,7 @@ class Sequence:
     """
 
     def __init__(self, pattern, *, frames=None, missing=None, camera=None, fov=None, depth_is=None, depth=None, near=None, far=None,
-                 background=None, depth_scale=None, depth_offset=None, depth_bytes=None, plane_files=None, normals_are=None, normal_space=None, normal_range=None, normal_axes=None, views=None, channels=None):
+                 background=None, depth_scale=None, depth_offset=None, depth_bytes=None, depth_encoding=None, plane_files=None, normals_are=None, normal_space=None, normal_range=None, normal_axes=None, views=None, channels=None):
         paths = _run._files(pattern)
         if paths is None:
             raise _words.refusal(f"pattern is of type {type(pattern).__name__}; a path such as 'shot.####.exr' is allowed, or a list of two")
@@ -150,7 +151,7 @@ class Sequence:
             numbers = [frames] if isinstance(frames, (int, numpy.integer)) else frames
             frames = ",".join(str(_words.integer("frames", number)) for number in numbers)
         self._words = _words.reading(camera, fov=fov, depth_is=depth_is, depth=depth, near=near, far=far, background=background,
-                                     depth_scale=depth_scale, depth_offset=depth_offset, depth_bytes=depth_bytes, plane_files=plane_files, views=views, channels=channels, normals_are=normals_are, normal_space=normal_space, normal_range=normal_range, normal_axes=normal_axes)
+                                     depth_scale=depth_scale, depth_offset=depth_offset, depth_bytes=depth_bytes, depth_encoding=depth_encoding, plane_files=plane_files, views=views, channels=channels, normals_are=normals_are, normal_space=normal_space, normal_range=normal_range, normal_axes=normal_axes)
         self._held = _gloam.open_sequence(paths, _words.text("frames", frames), _words.text("missing", missing), self._words)
         self.notes = self._held.notes
         _words.note(self.notes, stacklevel=2)

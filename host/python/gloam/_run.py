@@ -282,7 +282,7 @@ def run(technique, frame=None, *, camera=None, fov=None, views=None, device=None
         the far plane) or "reversed" (1 and 0).  near, far: the clipping planes, scene units, for the last two; default: the camera's.
     background: the depth value that means background, as it is stored.  depth_scale, depth_offset: what is stored, times the scale, plus the
         offset, is what depth_is says.
-    normals_are: the convention of the normals in one text: "view" or "world", "signed" (-1 to 1) or "unsigned" (0 to 1), and the axes, "x,-y,z" with y
+    normals_are: the convention of the normals in one text: "view" or "world", "signed" (-1 to 1), "unsigned" (0 to 1) or "srgb" (that with the curve of a picture), and the axes, "x,-y,z" with y
         down: "world unsigned". normal_space, normal_range, normal_axes: the same one by one. What is not stated is found by the depth: normals
         that agree with it in another convention than view space alone are taken in that one, and a note says so.
     Parameters of the technique by keyword: radius (scene units), samples, ...; settings: the same as a dict, for names with a dot

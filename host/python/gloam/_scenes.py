@@ -58,7 +58,7 @@ def capture(scene, width=1920, height=1080, planes=None, *, camera=None, eye=Non
 
     scene: a gloam.Scene, a name of gloam.scenes(), or a path; settings of a built-in scene by keyword.
     planes: names of planes beside depth: normal, albedo, color, roughness, reflectance, position, back_depth, instance (default: these), ambient,
-        metallic.
+        metallic, emission.
     camera: the name of one of the scene's cameras, or a gloam.Camera with a pose; or eye and target, points (x, y, z) in scene units; default: the
         scene's first.  fov: horizontal field of view, degrees.
     peel: depth layers to store, 0 to 64.  peel_light: also colour and normal of each layer, for dp-indirect.

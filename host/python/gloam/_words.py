@@ -180,7 +180,7 @@ def _note_foreign_folders():
 #: The keywords that state what depth stands for, and those that state the convention of normals.
 DEPTH = ("depth_is", "near", "far", "background", "depth_scale", "depth_offset")
 NORMALS = ("normals_are", "normal_space", "normal_range", "normal_axes")
-_NORMALS_ARE = {"view": "normal_space", "world": "normal_space", "signed": "normal_range", "unsigned": "normal_range"}
+_NORMALS_ARE = {"view": "normal_space", "world": "normal_space", "signed": "normal_range", "unsigned": "normal_range", "srgb": "normal_range"}
 
 
 def _normals_are(value):
@@ -189,8 +189,8 @@ def _normals_are(value):
     for word in (text("normals_are", value) or "").split():
         name = "normal_axes" if "," in word else _NORMALS_ARE.get(word)
         if name is None:
-            raise refusal(f"normals_are {word} is not allowed{_gloam.suggestion(word, list(_NORMALS_ARE))}; 'view' or 'world', 'signed' or "
-                          "'unsigned', and axes such as 'x,-y,z' are, with spaces between")
+            raise refusal(f"normals_are {word} is not allowed{_gloam.suggestion(word, list(_NORMALS_ARE))}; 'view' or 'world', 'signed', "
+                          "'unsigned' or 'srgb', and axes such as 'x,-y,z' are, with spaces between")
         if name in words:
             raise refusal(f"normals_are {_shown(value)} states two of {words[name]} and {word}; give one of them")
         words[name] = word
@@ -229,8 +229,9 @@ def reading(camera=None, **words):
             raise refusal("depth and depth_is both state the depth; give one of them")
         words["depth_is"] = text("depth", words["depth"])
     read = {"fov": number("fov", words.get("fov")), "views": names("views", words.get("views")), **_depth(words), **_normals(words)}
-    if words.get("depth_bytes") is not None:
-        read["depth_bytes"] = text("depth_bytes", words["depth_bytes"])
+    for name in ("depth_bytes", "depth_encoding"):
+        if words.get(name) is not None:
+            read[name] = text(name, words[name])
     if words.get("plane_files") is not None:
         files = words["plane_files"]
         if not isinstance(files, dict) or not all(isinstance(plane, str) for plane in files):

@@ -20,6 +20,7 @@ struct ReadOptions {
   /// The text of a camera JSON at hand, such as one of a list of cameras; `camera_file` then only names it. Empty: the file is read.
   std::string camera_text;
   std::optional<double> fov_degrees;  ///< --fov: horizontal, 1 to 179
+  std::string fov_from;               ///< what gave it, where the user did not: "matrix 'K'"
   /// A camera that cannot be used becomes a note instead of an error: for commands that only show a frame.
   bool only_looks = false;
   DepthConvention depth = DepthConvention::automatic;
@@ -28,14 +29,18 @@ struct ReadOptions {
   std::optional<double> depth_scale,
       depth_offset;  ///< --depth-scale, --depth-offset: stored depth times the scale, plus the offset
   DepthBytes depth_bytes = DepthBytes::automatic;  ///< --depth-bytes
+  std::optional<DepthEncoding> depth_encoding;     ///< --depth-encoding
   /// --plane-file: planes in files of their own, of any format that is read. With the frame's own path among them, that file is this plane
   /// and nothing else. A pattern gets the number in the frame's name.
   std::map<std::string, std::filesystem::path> plane_files;
+  bool looks_beside = true;  ///< an EXR of one plane is read with the files that its writer puts beside it
   std::filesystem::path calibration_file;  ///< found beside the frame: what states the scale of its disparities
   NormalConvention normals;                ///< --normal-space, --normal-range, --normal-axes
   /// Of a frame of a shot: what was found of the normals for all of its frames (conventions.h), by the path of the frame's file: of two
   /// eyes each has its own. Called where normals are read and something of their convention is not stated; null: the frame's own decide.
   std::function<FoundNormals(const std::filesystem::path& file)> shot_normals;
+  /// The same of the depth.
+  std::function<FoundDepth(const std::filesystem::path& file)> shot_depth;
   std::vector<std::string> views;  ///< --view, --views: views to read, in this order; empty: all
   bool count_nonfinite = false;    ///< `read` counts NaN and infinite values of the file
   /// Keeps values as in the file: only depth and the space of normals are converted; nothing is clamped, replaced or made unit. For
@@ -51,7 +56,7 @@ struct ReadOptions {
   std::map<std::string, std::string> channels;
 
   StatedDepth stated_depth() const {
-    return {depth, near, far, background, depth_scale, depth_offset, bool(shot_normals)};
+    return {depth, near, far, background, depth_scale, depth_offset, bool(shot_depth), depth_encoding};
   }
 };
 
@@ -64,7 +69,8 @@ struct ChannelSource {
 };
 
 /// The convention that a channel's name declares for its values.
-/// `made_of_positions`: a depth whose channels are those of the positions, from which `read` makes it.
+/// `made_of_positions`: a depth whose channels are those of the positions, from which `read` makes it. `sum_of_layers`: the channels are those
+/// of several layers, one layer after another, and `read` adds them; `sum_times_last`: and multiplies by the last layer.
 enum class DeclaredConvention {
   nothing,
   planar,
@@ -72,7 +78,9 @@ enum class DeclaredConvention {
   world_space,
   view_space,
   unsure_motion,
-  made_of_positions
+  made_of_positions,
+  sum_of_layers,
+  sum_times_last
 };
 
 /// A plane that can be decoded.
@@ -176,6 +184,8 @@ class FrameFile {
   std::string normal_space() const;
   /// The convention of the normals of the first view that has any, and what was assumed; empty before `read`.
   const FoundNormals& found_normals() const;
+  /// How the depth of the first view was read where nothing states it; empty before `read`.
+  const FoundDepth& found_depth() const;
 
  private:
   friend class FrameFiles;

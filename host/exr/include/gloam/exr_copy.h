@@ -29,7 +29,7 @@ std::vector<std::string> write_copy(const std::filesystem::path& path, const std
                                     const std::vector<AddedPlanes>& added);
 
 /// As `write_frame`, with all attributes of a part of `original` that tell of more than how it is stored, and that the frame does not
-/// write itself: chromaticities, time code, the renderer's own.
+/// write itself: chromaticities, time code, the renderer's own; but not those of a Cryptomatte, whose channels the frame lacks.
 void write_frame_like(const std::filesystem::path& path, const std::filesystem::path& original, int part,
                       const Frame& frame, const WriteOptions& options);
 

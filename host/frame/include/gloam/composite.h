@@ -18,7 +18,9 @@ struct Compositing {
 std::string composited_plane(const std::vector<std::string>& planes);
 
 /// Changes the plane `color` of all views, in scene-linear values, by a plane of `result`:
-/// - AO: colour x max(0, 1 - strength (1 - AO) (1 - tint)), so that strength 1 gives colour x AO, and colour x tint where AO is 0;
+/// - AO: colour x max(0, 1 - strength (1 - AO) (1 - tint)), so that strength 1 gives colour x AO, and colour x tint where AO is 0; of a
+///   colour with emission, backdrop, volume or transmission beside it what is left without them, and with illumination and albedo their
+///   product;
 /// - reflection: colour + strength x reflection, its R, G and B as they are, since these are radiance towards the eye already.
 /// Where that changes nothing (background), colour keeps its bits. Throws Error for views or sizes that differ.
 void composite(Frame& colour, const Frame& result, const std::string& plane, const Compositing& how);

@@ -16,6 +16,8 @@ struct ComposeOptions {
   ColorHolds holds = {};
   /// Radiance of an even sky that the ambient light is of: in place of the plane `ambient`, where given.
   std::optional<std::array<double, 3>> ambient = {};
+  /// What the file calls planes, for notes: {"emission", "ViewLayer.Emit"}. May be empty.
+  std::map<std::string, std::string> names_in_file = {};
 };
 
 /// One plane of those that were computed.
@@ -28,10 +30,12 @@ struct ComposedPart {
 struct Composition {
   std::vector<ComposedPart>
       parts;  ///< of the planes computed those that a picture can be made of, in the order of `part_planes`
-  std::vector<std::string> notes;  ///< a sentence each
+  std::vector<std::string> notes;      ///< a sentence each
+  std::vector<std::string> untouched;  ///< planes of light that no occlusion darkens
   enum class Ambient {
     plane,
     even_sky,
+    illumination,
     colour,
     unknown
   } ambient = Ambient::unknown;  ///< where ambient light is taken from
@@ -41,7 +45,8 @@ struct Composition {
 
 /// The planes that a picture can be made of, beside colour: ao, bounces, indirect, reflection, environment, contact.
 const std::vector<std::string>& part_planes();
-/// The planes of the frame itself that composing reads, as far as the frame has them: color, ambient, albedo, metallic, depth.
+/// The planes of the frame itself that composing reads, as far as the frame has them: color, ambient, albedo, metallic, depth, illumination,
+/// and light that is left as it is: emission, backdrop, volume, transmission.
 const std::vector<std::string>& planes_to_compose();
 
 /// Decides what a picture is made of, given the names of the frame's own planes and of those that were computed. Throws UsageError
@@ -61,9 +66,9 @@ std::map<std::string, std::string> attributes_of(const Composition& composition)
 ///   or + D environment - A            where there is `environment`: its light in place of the ambient light
 ///   + D indirect
 ///   + reflection
-///   + (contact - 1) max(C - A, 0)     where C does not hold shadows
-/// A is the plane `ambient`, or albedo times the even sky, or all of C if neither is known; where C holds ambient light, A is at
-/// most C. Colour keeps its bits where nothing is added, where the picture would not be finite, and on the background (depth, where
+///   + (contact - 1) max(C - A - U, 0)  where C does not hold shadows
+/// U is the sum of emission, backdrop, volume and transmission. A is the plane `ambient`, or albedo times the even sky, or albedo times
+/// `illumination`, or all of C if none is known; where C holds ambient light, A is at most C - U. Colour keeps its bits where nothing is added, where the picture would not be finite, and on the background (depth, where
 /// the view has it, of +inf). Planes are of any one size. Throws Error for sizes that differ.
 void compose(View& colour, const View& computed, const Composition& composition);
 

@@ -21,11 +21,24 @@ struct CaptureView {
   std::optional<Camera> previous_camera = {};  ///< camera of the frame before, for motion vectors
 };
 
-/// A stochastic depth map of all surfaces under the pixel centre (kernels/shared/both/stochastic.h).
+/// Which surfaces under a pixel centre a stochastic depth map is made of: all, as in the paper, or those behind the nearest.
+enum class StochasticSurfaces { all, hidden };
+/// Names in the order of the enumerators.
+const std::vector<std::string>& stochastic_surfaces();
+
+/// Which samples hold a surface: a stratified random subset, as in the paper; or the first the nearest, the second the next one.
+enum class StochasticSubset { stratified, nearest };
+const std::vector<std::string>& stochastic_subsets();
+
+/// A stochastic depth map (kernels/shared/both/stochastic.h), with the bits that `stochastic-depth` makes with the same choices.
 struct StochasticOptions {
-  int samples = 0;     ///< depths per pixel, 0 to 16: planes stochastic.00 ...
-  double alpha = 0.2;  ///< share of the samples that each surface is offered to, 0 to 1; used as float
-  int seed = 0;        ///< at least 0; same effect as `RunOptions::seed` for `stochastic-depth`
+  int samples = 0;  ///< depths per pixel, 0 to 16: planes stochastic.00 ...
+  /// Of a stratified map: the share of the samples that each surface is offered to, 0 to 1, used as float; and the seed, at least 0, with the
+  /// same effect as `RunOptions::seed` for `stochastic-depth`.
+  double alpha = 0.25;
+  int seed = 0;
+  StochasticSurfaces surfaces = StochasticSurfaces::hidden;
+  StochasticSubset subset = StochasticSubset::nearest;
 };
 
 struct CaptureOptions {
@@ -68,8 +81,8 @@ std::vector<std::string> usual_capture_planes();
 /// Samples a scene at pixel centres. Planes as in docs/gbuffer.md; `peel_count` is the number of all surfaces under the pixel
 /// centre, stored or not. `instance` is the mesh's index + 1; 0 is background. `outline_count` is the number of outlines that
 /// contain the eye (`Outlines::around`) plus the signed crossings from there to the visible surface, or to the far plane.
-/// Attributes of the frame: its scene (gloamScene), what its colour holds (gloamColorHolds: "ambient,shadows"), how its stochastic depths were made (gloamStochasticAlpha,
-/// gloamStochasticSeed), its outlines (gloamOutlines, their extent in scene units, gloamOutlineMethod, and gloamOutlineAngle,
+/// Attributes of the frame: its scene (gloamScene), what its colour holds (gloamColorHolds: "ambient,shadows"), how its stochastic depths were
+/// made (gloamStochasticSurfaces, gloamStochasticSubset, of a stratified map gloamStochasticAlpha and gloamStochasticSeed), its outlines (gloamOutlines, their extent in scene units, gloamOutlineMethod, and gloamOutlineAngle,
 /// degrees), the turn of its second view (gloamSecondView, degrees) and the placement of its eyes (gloamStereo and
 /// gloamConvergence, scene units, gloamToeIn, degrees). Near and far planes of cameras clip.
 /// Throws UsageError for an unknown plane; for a size or a number of layers or samples out of range; for a second view or a pair of

@@ -10,6 +10,9 @@ const shapes = [
   'M-0.55,-0.95H0.55L1.1,0L0.55,0.95H-0.55L-1.1,0Z',               // hexagon
 ];
 
+/// Submitted methods have this shape alone, in the colour of their turn.
+const star = 'M0,-1.3L0.33,-0.45L1.24,-0.4L0.53,0.17L0.76,1.05L0,0.56L-0.76,1.05L-0.53,0.17L-1.24,-0.4L-0.33,-0.45Z';
+
 // The title of a vertical axis, above it.
 function titleAbove(title, offset) {
   return {title, titleAngle: 0, titleAlign: 'left', titleAnchor: 'end', titleX: 0, titleY: -offset, titleBaseline: 'bottom'};
@@ -35,7 +38,7 @@ function theme() {
   };
 }
 
-/// Eight colours and seven shapes advance together: 56 techniques before a pair repeats.
+/// Eight colours and seven shapes advance together: 56 techniques before a pair repeats. Each page says which are submitted: isStarred.
 const colourOf = (index) => theme().colours[index % theme().colours.length];
 const shapeOf = (index) => (isStarred(index) ? star : shapes[index % shapes.length]);
 
