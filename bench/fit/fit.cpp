@@ -83,10 +83,10 @@ float error_term(const FitSample& s, int i) {
   return i < error_terms - 1 ? s.terms[size_t(evidence_terms + i)] : 1.0f;
 }
 
-/// Whether one of AO's terms has `u`: of t, and of r t.
+/// Whether one of AO's terms has `u` or `n`: of t, and of r t.
 bool has_unknown(int term) {
   const int i = term % evidence_terms;
-  return i == 2 || i == 6 || i == 7 || i == 8 || i == 11;
+  return i == 2 || i == 6 || i == 7 || i == 8;
 }
 
 /// Least squares with a little ridge, small beside the sums over thousands of pixels: it only keeps terms that are nearly alike from
@@ -137,7 +137,8 @@ void fit_closed(const std::vector<std::vector<FitGroup>>& samplings, std::vector
     const std::vector<int> columns = columns_of(k);
     for (const FitGroup& group : samplings[k]) {
       for (const FitSample& s : *group.samples)
-        regression.add(columns, {s.terms.begin(), s.terms.begin() + closed_terms}, 1 - double(s.truth), group.weight);
+        regression.add(columns, {s.terms.begin(), s.terms.begin() + closed_terms}, 1 - double(s.truth),
+                       group.weight * (s.truth >= least_open ? weight_of_open : 1));
     }
   }
   const cv::Mat solution = regression.solution();
@@ -236,6 +237,17 @@ double rmse(const std::vector<FitSample>& samples, const Fit& fit) {
 
 double rmse(const std::vector<FitSample>& samples, float FitSample::*ao) {
   return rmse_of(samples, [&](const FitSample& s) { return s.*ao; });
+}
+
+double share_too_dark(const std::vector<FitSample>& samples, const Fit& fit) {
+  constexpr double tolerance = 0.03;
+  long long open = 0, dark = 0;
+  for (const FitSample& s : samples) {
+    if (s.truth < least_open) continue;
+    ++open;
+    dark += fit.ao(s) < double(s.truth) - tolerance;
+  }
+  return open == 0 ? 0 : double(dark) / double(open);
 }
 
 std::vector<Decile> deciles(std::vector<std::pair<double, double>> pixels) {

@@ -48,13 +48,20 @@ struct Fit {
   double expected_error(const FitSample& sample) const;
 };
 
-/// Ridge regression for samplings that know occluders by the same means, a list of groups for each. What is unknown does not depend on
-/// the number of samples: coefficients of terms with `u` are common to all samplings, so that more samples never make an estimate
-/// surer of what no sample sees. Throws Error for fewer pixels than terms.
+/// Ridge regression for samplings that know occluders by the same means, a list of groups for each. Pixels that are open count
+/// `weight_of_open` times. What is unknown does not depend on the number of samples: coefficients of terms with `u` or `n` are common to
+/// all samplings, so that more samples never make an estimate surer of what no sample sees. Throws Error for fewer pixels than terms.
 std::vector<Fit> fitted(const std::vector<std::vector<FitGroup>>& samplings);
 
 /// Fits the error of a sampling whose AO is fitted: by terms, and by how much it grows where samples lie outside of the image.
 void fit_error(const std::vector<FitGroup>& groups, Fit& fit);
+
+/// Pixels with at least this truth are open. Dark spots on them are seen before errors of the same size elsewhere, so they weigh more.
+constexpr float least_open = 0.97f;
+constexpr double weight_of_open = 4;
+
+/// Share of the open pixels that are more than .03 too dark; 0 where none is open.
+double share_too_dark(const std::vector<FitSample>& samples, const Fit& fit);
 
 /// Root mean square error to the truth, of AO clamped to 0 to 1 after the filter. (The technique clamps before the filter.)
 double rmse(const std::vector<FitSample>& samples, const Fit& fit);

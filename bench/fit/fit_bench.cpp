@@ -134,24 +134,27 @@ void print_bands(const std::vector<SceneSamples>& scenes, const std::vector<Fit>
 void print_cross_validation(const std::vector<SceneSamples>& scenes, const std::vector<Fit>& fits,
                             const Sampling& sampling) {
   fmt::print(
-      "\nOccluders by {}, {} x {} x 2 samples\n\n| scene | kind | gtao | bitmask | evidence |\n|---|---|---|---|---|\n",
+      "\nOccluders by {}, {} x {} x 2 samples\n\n| scene | kind | gtao | bitmask | evidence | open pixels over .03 too "
+      "dark, % |\n|---|---|---|---|---|---|\n",
       sampling.occluders, sampling.directions, sampling.steps);
   std::map<std::string, std::vector<std::pair<double, double>>> errors;
-  std::map<std::string, std::array<double, 4>> sums;
+  std::map<std::string, std::array<double, 5>> sums;
   for (size_t k = 0; k < scenes.size(); ++k) {
     const SceneSamples& scene = scenes[k];
     const Fit& fit = fits[k];
     const double gtao = rmse(scene.samples, &FitSample::gtao), bitmask = rmse(scene.samples, &FitSample::bitmask),
-                 evidence = rmse(scene.samples, fit);
-    fmt::print("| {} | {} | {:.4f} | {:.4f} | {:.4f} |\n", scene.scene.name, scene.scene.kind, gtao, bitmask, evidence);
-    std::array<double, 4>& sum = sums[scene.scene.kind];
-    sum = {sum[0] + 1, sum[1] + gtao, sum[2] + bitmask, sum[3] + evidence};
+                 evidence = rmse(scene.samples, fit), dark = 100 * share_too_dark(scene.samples, fit);
+    fmt::print("| {} | {} | {:.4f} | {:.4f} | {:.4f} | {:.1f} |\n", scene.scene.name, scene.scene.kind, gtao, bitmask,
+               evidence, dark);
+    std::array<double, 5>& sum = sums[scene.scene.kind];
+    sum = {sum[0] + 1, sum[1] + gtao, sum[2] + bitmask, sum[3] + evidence, sum[4] + dark};
     for (const FitSample& s : scene.samples)
       errors[scene.weight < 1 ? "thin" : "others"].emplace_back(fit.expected_error(s),
                                                                 std::abs(fit.ao(s) - double(s.truth)));
   }
   for (const auto& [kind, sum] : sums)
-    fmt::print("| mean | {} | {:.4f} | {:.4f} | {:.4f} |\n", kind, sum[1] / sum[0], sum[2] / sum[0], sum[3] / sum[0]);
+    fmt::print("| mean | {} | {:.4f} | {:.4f} | {:.4f} | {:.1f} |\n", kind, sum[1] / sum[0], sum[2] / sum[0],
+               sum[3] / sum[0], sum[4] / sum[0]);
   for (const auto& [kind, pixels] : errors) {
     fmt::print("\nExpected and actual absolute error by decile, {}:", kind);
     for (const Decile& d : deciles(pixels)) fmt::print(" {:.4f} {:.4f},", d.expected, d.actual);
@@ -269,9 +272,11 @@ int bench_main(int argc, char** argv) {
   for (const TrainingScene& scene : named)
     scenes.push_back(scene.kind == "own" ? std::filesystem::path(scene.name).filename().string() : scene.name);
   const std::string provenance = fmt::format(
-      "{} frames of each of {}, {}x{}, radius {:g} to {:g} pixels at the median depth, {} rays a pixel, seed {}{}",
+      "{} frames of each of {}, {}x{}, radius {:g} to {:g} pixels at the median depth, {} rays a pixel, seed {}{}; "
+      "pixels with a truth of {:g} or more count {:g}",
       options.frames, fmt::join(scenes, ", "), options.width, options.height, options.least_pixels, options.most_pixels,
-      options.rays, options.seed, names.empty() ? fmt::format("; scenes of kind thin count {:g}", weight_of_thin) : "");
+      options.rays, options.seed, names.empty() ? fmt::format("; scenes of kind thin count {:g}", weight_of_thin) : "",
+      least_open, weight_of_open);
   const std::string document = document_of(sets, provenance);
   if (output.empty())
     fmt::print("\n{}", document);

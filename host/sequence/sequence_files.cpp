@@ -30,8 +30,9 @@ constexpr size_t most_looked_at = 5;
 constexpr double least_share_shown = 0.03;
 constexpr long long least_shown = 256;
 
-/// What the files of one eye, or of both in one, tell of their normals.
+/// What the files of one eye, or of both in one, tell of their depth and normals.
 struct Told {
+  FoundDepth depth;
   FoundNormals normals;
   long long shown = 0;  ///< pixels of surface in the frame that tells
   bool is_enough = false;
@@ -66,27 +67,41 @@ long long surface_of(const Frame& frame, const FrameFiles& files, size_t file) {
   return 0;
 }
 
+void say_where(const SequenceFrame& at, std::vector<std::string>& notes) {
+  for (std::string& note : notes) note += fmt::format(" (decided on frame {} for the whole sequence)", at.number);
+}
+
+/// The first frame whose surfaces tell decides; where none does, each frame stays planar distance.
+void take_depth(const FoundDepth& found, const SequenceFrame& at, FoundDepth& told) {
+  if (!found.read || !found.is_told) return;
+  told = found;
+  say_where(at, told.notes);
+}
+
+/// Whether a file has nothing more to tell.
+bool has_told_all(const Told& told) { return told.is_enough && (told.depth.is_told || !told.depth.read); }
+
 /// Takes over what a frame tells, if it shows more than the frames before and none of them has shown enough.
 void look_at(const SequenceFrame& at, const SequenceFiles& sequence, std::vector<Told>& told) {
   FrameFiles files = sequence.open(at);
   const Frame frame = files.read({"depth", "normal"});
   const double pixels = double(frame.width()) * double(frame.height());
   for (size_t i = 0; i < files.files().size(); ++i) {
+    if (!told[i].depth.is_told) take_depth(files.files()[i].found_depth(), at, told[i].depth);
     const long long shown = surface_of(frame, files, i);
     if (told[i].is_enough || shown <= told[i].shown) continue;
-    told[i] = {files.files()[i].found_normals(), shown,
-               shown >= least_shown && double(shown) >= least_share_shown * pixels};
-    for (std::string& note : told[i].normals.notes)
-      note += fmt::format(" (decided on frame {} for the whole sequence)", at.number);
+    told[i].normals = files.files()[i].found_normals();
+    told[i].shown = shown, told[i].is_enough = shown >= least_shown && double(shown) >= least_share_shown * pixels;
+    say_where(at, told[i].normals.notes);
   }
 }
 
-/// What the normals of a sequence tell, by its inputs: the first of the frames that can be read and shows enough of a surface stands for all,
+/// What the depth and the normals of a sequence tell, by its inputs: the first of the frames that can be read and shows enough of a surface stands for all,
 /// else the one that shows most. `frames`: those to look at. A frame that cannot be read is told when its turn comes.
-std::vector<Told> normals_of(const SequenceFiles& sequence, const std::vector<SequenceFrame>& frames) {
+std::vector<Told> conventions_of(const SequenceFiles& sequence, const std::vector<SequenceFrame>& frames) {
   std::vector<Told> told(sequence.inputs().size());
   for (size_t i = 0; i < std::min(frames.size(), most_looked_at); ++i) {
-    if (std::all_of(told.begin(), told.end(), [](const Told& each) { return each.is_enough; })) break;
+    if (std::all_of(told.begin(), told.end(), has_told_all)) break;
     try {
       look_at(frames[i], sequence, told);
     } catch (const Error&) {
@@ -110,18 +125,17 @@ std::vector<SequenceFrame> frames_to_look_at(const SequenceFiles& sequence) {
   return list_frames(sequence.inputs(), all, unused);
 }
 
-/// `normals_of`, worked out once, when the first thread asks; for the input that a file is of.
-std::function<FoundNormals(const std::filesystem::path&)> normals_when_asked(
-    std::shared_ptr<const SequenceFiles> sequence) {
+/// `conventions_of`, worked out once, when the first thread asks; for the input that a file is of.
+std::function<Told(const std::filesystem::path&)> told_when_asked(std::shared_ptr<const SequenceFiles> sequence) {
   struct Kept {
     std::once_flag once;
     std::vector<Told> told;
   };
   return [kept = std::make_shared<Kept>(), sequence = std::move(sequence)](const std::filesystem::path& file) {
-    std::call_once(kept->once, [&] { kept->told = normals_of(*sequence, frames_to_look_at(*sequence)); });
+    std::call_once(kept->once, [&] { kept->told = conventions_of(*sequence, frames_to_look_at(*sequence)); });
     for (size_t i = 0; i < kept->told.size(); ++i)
-      if (is_frame_of(sequence->inputs()[i], file)) return kept->told[i].normals;
-    return FoundNormals{};
+      if (is_frame_of(sequence->inputs()[i], file)) return kept->told[i];
+    return Told{};
   };
 }
 
@@ -133,10 +147,12 @@ SequenceFiles::SequenceFiles(std::vector<FramePattern> inputs, const ReadOptions
   const std::string camera = options.camera_file.string();
   if (FramePattern::is_pattern(camera))
     cameras_.emplace(camera, option("camera"));
-  else if (!camera.empty())
+  else if (!camera.empty() && options.camera_text.empty())
     camera_list_ = CameraList::of_file(camera, sources_of(frames_));
   tell_ledger();
-  options_.shot_normals = normals_when_asked(std::make_shared<const SequenceFiles>(*this));
+  const auto told = told_when_asked(std::make_shared<const SequenceFiles>(*this));
+  options_.shot_normals = [told](const std::filesystem::path& file) { return told(file).normals; };
+  options_.shot_depth = [told](const std::filesystem::path& file) { return told(file).depth; };
 }
 
 void SequenceFiles::tell_ledger() const {
@@ -151,7 +167,7 @@ void SequenceFiles::tell_ledger() const {
   }
   if (cameras_)
     reads_pattern(*cameras_);
-  else
+  else if (options_.camera_text.empty())
     reads_file(options_.camera_file, option("camera"));
 }
 

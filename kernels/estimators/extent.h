@@ -9,8 +9,8 @@
 #define RUN_SLOPE ((scalar)2)
 #define RUN_SLACK ((scalar)0.02f)
 
-// Half as thick as wide, within these bounds in radii.
-#define THICKNESS_OF_EXTENT ((scalar)0.5f)
+// As thick as wide, within these bounds in radii.
+#define THICKNESS_OF_EXTENT ((scalar)1)
 #define LEAST_THICKNESS ((scalar)0.05f)
 #define MOST_THICKNESS ((scalar)2)
 

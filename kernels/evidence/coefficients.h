@@ -8,7 +8,7 @@
 namespace gloam {
 
 /// Terms of a slice: t of evidence.cl.
-constexpr int evidence_terms = 12;
+constexpr int evidence_terms = 13;
 /// Those that AO is fitted to: t, and t times r. Those that the error is fitted to: t, the roots of a and u, and 1.
 constexpr int closed_terms = 2 * evidence_terms, error_terms = evidence_terms + 3;
 

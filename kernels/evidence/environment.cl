@@ -39,8 +39,11 @@ kernel void environment_estimate(ARGUMENTS) {
 #endif
     search_around(frame, params, layers, search, coefficients, &mean, &directions);
 #if MISSING_LIGHT
+    // Slices may expect less than nothing or more than all, as far as the mean does not.
+    const real kept = smaller(larger(mean.closed, (real)(0)), (real)(1));
+    const real share = quotient(kept, choose(mean.closed != 0, mean.closed, (real)(1)));
     light = light_on_surface(environment_light, r.normal);
-    light = make3(light.x - mean.missing.x, light.y - mean.missing.y, light.z - mean.missing.z);
+    light = make3(light.x - share * mean.missing.x, light.y - share * mean.missing.y, light.z - share * mean.missing.z);
 #else
 #if BY_BENT_NORMAL
     const real3 towards = bent_normal_of(directions, r.normal);

@@ -3,12 +3,15 @@
 //
 // Of each slice, both sides together:
 //   a  share of the mass below the highest occluder: occluders have no back (estimators/arc.h)
-//   b  share of the mass between front and back of occluders that are half as thick as they are wide (estimators/extent.h), by
+//   b  share of the mass between front and back of occluders that are as thick as they are wide (estimators/extent.h), by
 //      sectors (estimators/sectors.h; Therrien, Levesque, Gilet 2023); where layers or a back tell the thickness, the known one
 //   u  share of the samples above the tangent, out of reach and nearer to the eye than the point: what they hide is unknown
 //   r  share of the samples that lie beyond a jump of the depth, on another surface than the point
 //   f  cosine between the normal and the line to the eye
-//   t = (a, b, u, aa, ab, bb, au, bu, uu, af, bf, uf)
+//   n  how near that is: mean over the samples of (1 - l / R) R^2 / d^2 where they count for u and of 0 elsewhere, l the distance along
+//      the tangent, d that of what is seen, R the radius
+//   c, d  a and b of each side times its share of u, summed over the sides
+//   t = (a, b, n, aa, ab, bb, c, d, nn, af, bf, aaa, bbb)
 //   AO = 1 - mean over slices of (w + r v) . t
 // w holds where one surface fills the surroundings, w + v among leaves and hair. There is no constant term: a plane is open to the
 // last bit. The expected absolute error of AO is e . (t, sqrt(a), sqrt(u), 1) + g oo, where
@@ -56,7 +59,7 @@
   DO(4)                                                                                                              \
   DO(5)                                                                                                              \
   DO(6) DO(7) DO(8) DO(9) DO(10) DO(11) DO(12) DO(13) DO(14) DO(15) DO(16) DO(17) DO(18) DO(19) DO(20) DO(21) DO(22) \
-      DO(23) DO(24) DO(25) DO(26)
+      DO(23) DO(24) DO(25) DO(26) DO(27) DO(28)
 #define STORE_TERM(k) write_at(r, choose(r.point.background, (real)(0), mean.terms[k]), term_##k);
 #define STORE_OPEN
 #else
@@ -109,15 +112,13 @@ static inline void add_side_of_both(const View* own, const View* other, const Si
                                     Evidence* evidence) {
   const real alone = larger(share_below_lowest(own->slice, s, s->closed.lowest),
                             choose(is_seen, share_below_lowest(other->slice, o, o->closed.lowest), (real)(0)));
-  evidence->below_horizon +=
-      of_both(larger(share_below_lowest(own->slice, s, s->closed_for_both.lowest), alone),
-              larger(share_below_lowest(other->slice, o, o->closed_for_both.lowest), alone), is_seen);
+  const real below = of_both(larger(share_below_lowest(own->slice, s, s->closed_for_both.lowest), alone),
+                             larger(share_below_lowest(other->slice, o, o->closed_for_both.lowest), alone), is_seen);
   const natural covered = s->closed.covered | (o->closed.covered & bits_of(is_seen));
-  evidence->within_thickness += of_both(share_covered(s, covered | s->closed_for_both.covered),
-                                        share_covered(o, covered | o->closed_for_both.covered), is_seen);
-  const scalar per_sample = (scalar)(0.5f / STEPS);
-  evidence->unknown += of_both(s->unknown, o->unknown, is_seen) * per_sample;
-  evidence->others += of_both(s->others, o->others, is_seen) * per_sample;
+  const real within = of_both(share_covered(s, covered | s->closed_for_both.covered),
+                              share_covered(o, covered | o->closed_for_both.covered), is_seen);
+  take_side(below, within, of_both(s->unknown, o->unknown, is_seen), of_both(s->nearness, o->nearness, is_seen),
+            of_both(s->others, o->others, is_seen), evidence);
 }
 
 static inline real closed_to_both(TABLE_PARAMETERS Search here, Search there, const View* own, const View* other,

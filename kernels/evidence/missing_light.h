@@ -21,14 +21,20 @@ static inline real sectors_at(real cosine, const Side* s) {
   return smaller(larger(quick_sectors_below(2 * cosine, s->scale), (real)(0)), (real)(MOST_SECTORS));
 }
 
+// The surface's normal, projected to the plane of the slice: of length 1.
+static inline real3 normal_within(Search search, Slice slice) {
+  const real3 v = search.surface.to_eye, t = slice.tangent;
+  return make3(slice.sine * t.x + slice.cosine * v.x, slice.sine * t.y + slice.cosine * v.y,
+               slice.sine * t.z + slice.cosine * v.z);
+}
+
 // Adds what a side's closed ranges would send, times the share of the slice that they close. `sign`: of the side.
 static inline __attribute__((always_inline)) void add_missing_of_side(real3* light, real* closed, Search search,
                                                                       Slice slice, real shift, scalar sign,
                                                                       const Side* s) {
   const real3 v = search.surface.to_eye, t = slice.tangent;
   // Up from the surface's tangent, and along it to this side.
-  const real3 up = make3(slice.sine * t.x + slice.cosine * v.x, slice.sine * t.y + slice.cosine * v.y,
-                         slice.sine * t.z + slice.cosine * v.z);
+  const real3 up = normal_within(search, slice);
   const real3 out =
       make3(sign * (slice.cosine * t.x - slice.sine * v.x), sign * (slice.cosine * t.y - slice.sine * v.y),
             sign * (slice.cosine * t.z - slice.sine * v.z));
@@ -65,8 +71,14 @@ static inline __attribute__((always_inline)) void add_missing_light(real3* missi
   const real shift = turn - floor(turn);
   add_missing_of_side(&light, &closed, search, slice, shift, (scalar)1, right);
   add_missing_of_side(&light, &closed, search, slice, 1 - shift, (scalar)-1, left);
-  const mask is_known = closed > 0;
-  const real share = quotient(choose(is_known, closed_share, (real)(0)), choose(is_known, closed, (real)(1)));
+  // What the fit expects of a slice that shows nothing, below 0 too, is missing from above the surface.
+  const mask is_anywhere = closed > 0;
+  if (ANY(!is_anywhere)) {
+    const real3 above = coarse_radiance(search.environment, normal_within(search, slice));
+    light = make3(choose(is_anywhere, light.x, above.x), choose(is_anywhere, light.y, above.y),
+                  choose(is_anywhere, light.z, above.z));
+  }
+  const real share = quotient(closed_share, choose(is_anywhere, closed, (real)(1)));
   missing->x = multiply_add(share, light.x, missing->x);
   missing->y = multiply_add(share, light.y, missing->y);
   missing->z = multiply_add(share, light.z, missing->z);

@@ -1,12 +1,100 @@
 // A stochastic depth map from all surfaces under a pixel (Vermeer, Scandolo, Eisemann 2021, section 3.1): every surface is
-// offered to some of the samples, and each sample keeps the nearest that it was offered.
+// offered to some of the samples, and each sample keeps the nearest that it was offered. HIDDEN: surfaces behind the nearest
+// alone are offered. JITTER 0: the samples hold the surfaces that are offered, the nearest in the first. RELEVANT: of the hidden
+// surfaces only those are offered that may be within the radius of something visible. Depth is divided into slices of one radius;
+// each tile of TILE x TILE pixels knows in which slices a tile within reach shows something, and the slices beside these.
 //
 // in : depth       view-space z of the nearest surface, scene units, +inf = background
 //      peel        stack of all surfaces under the pixel centre, the nearest among them
 // out: stochastic  stack of SAMPLES depths; +inf where a sample was offered nothing
-// -D SAMPLES, HASHED, PEEL_LAYERS
+// slices_of_tiles, slices_across, slices_down: `frame` is the tiles; of slices_of_tiles and the map `other` is the other resolution
+//      slices      whole number with a bit for each slice; every SLICES-th slice has the same one
+//      reach       how far something in the tile looks for occluders, in tiles
+// -D SAMPLES, HIDDEN, HASHED, JITTER, RELEVANT, TILE, PEEL_LAYERS
 #include "shared/lanes/load.h"
+#include "shared/lanes/math.h"
 #include "shared/both/stochastic.h"
+
+// As many bits as a float holds in a whole number.
+#define SLICES 24
+
+#if RELEVANT
+// Of a depth that is not infinite. What is more than a million radii away is in one slice.
+static inline natural slice_of(real depth, scalar radius) {
+  const real slice = floor(smaller(depth * min(1 / radius, (scalar)1e30f), (real)(1e6f)));
+  // The product may be rounded down below a whole number: 24 in place of 0.
+  const natural bit = (natural)(1u) << to_natural(slice - SLICES * floor(slice * (scalar)(1.0f / SLICES)));
+  return (bit | bit >> SLICES) & ((1u << SLICES) - 1u);
+}
+
+// Where lanes do not count, no slice.
+static inline natural slice_where(mask counts, real depth, scalar radius) {
+  const natural bit = slice_of(choose(counts, depth, (real)(0)), radius);
+  return to_natural(choose(counts, to_real(bit), (real)(0)));
+}
+
+// in : depth
+// out: slices, reach
+kernel void slices_of_tiles(ARGUMENTS) {
+  const int here = index_of(frame, FIRST_X, ROW_Y);
+  const integer first = (FIRST_X + IOTA) * TILE;
+  natural shown = (natural)(0u);
+  real nearest = REAL_INFINITY;
+  for (int dy = 0; dy < TILE; ++dy) {
+    const int row = index_of(other, 0, min(ROW_Y * TILE + dy, other.height - 1));
+    for (int dx = 0; dx < TILE; ++dx) {
+      const real seen = gather(depth + row, min(first + dx, (integer)(other.width - 1)));
+      shown |= slice_where(seen < REAL_INFINITY, seen, params.radius);
+      nearest = smaller(nearest, seen);
+    }
+  }
+  // What is within the radius lies in the same slice or in one beside it.
+  shown |= shown << 1 | shown >> 1 | shown << (SLICES - 1) | shown >> (SLICES - 1);
+  shown &= (1u << SLICES) - 1u;
+  // Off the axis a ball is longer on the screen than its radius.
+  const real x = to_real(first) + TILE / 2 - other.centre_x, y = (real)(ROW_Y * TILE + TILE / 2) - other.centre_y;
+  const real stretch = 1 + other.perspective * (fabs(x) * other.scale_x + fabs(y) * other.scale_y);
+  const mask shows = (nearest < REAL_INFINITY) & (mask)(EVERY_LANE_IF(params.radius > 0));
+  const real per_depth = other.perspective / choose(shows, nearest, (real)(1)) + other.parallel;
+  const real pixels = smaller(params.radius / min(other.scale_x, other.scale_y) * per_depth,
+                              (real)(params.max_reach * other.width));
+  store(choose(shows, to_real(shown), (real)(0)), slices, here);
+  // One pixel more, as samples are rounded to pixels.
+  store(choose(shows, (pixels * stretch + 1) * (1.0f / TILE), (real)(0)), reach, here);
+}
+
+// Tiles whose pixels are closer to each other than the tiles are, in tiles.
+static inline real gap_between(real tiles) { return larger(fabs(tiles) - 1, (real)(0)); }
+
+// The slices of all tiles of a row that reach this one; `further`: how far up and down these still reach.
+// in : slices, reach
+// out: row_slices, further
+kernel void slices_across(ARGUMENTS) {
+  const int row = index_of(frame, 0, ROW_Y), here = index_of(frame, FIRST_X, ROW_Y);
+  natural found = (natural)(0u);
+  real most = 0;
+  for (int column = 0; column < frame.width; ++column) {
+    const real far = (real)(reach[row + column]), gap = gap_between(to_real(FIRST_X + IOTA - column));
+    const mask reaches = gap <= far;
+    found |= to_natural(choose(reaches, (real)(slices[row + column]), (real)(0)));
+    most = larger(most, choose(reaches, far * far - gap * gap, (real)(0)));
+  }
+  store(to_real(found), row_slices, here);
+  store(sqrt(most), further, here);
+}
+
+// in : row_slices, further
+// out: slices
+kernel void slices_down(ARGUMENTS) {
+  natural found = (natural)(0u);
+  for (int row = 0; row < frame.height; ++row) {
+    const int there = index_of(frame, FIRST_X, row);
+    const mask reaches = gap_between((real)(row - ROW_Y)) <= load(further, there);
+    found |= to_natural(choose(reaches, load(row_slices, there), (real)(0)));
+  }
+  store(to_real(found), slices, index_of(frame, FIRST_X, ROW_Y));
+}
+#endif
 
 static inline natural subset_of(natural hash, uint alpha) {
 #if HASHED
@@ -18,26 +106,56 @@ static inline natural subset_of(natural hash, uint alpha) {
 #endif
 }
 
-// in : depth, peel
+// Each of the samples that `subset` names keeps the nearer of what it holds and the surface.
+static inline void offer(real surface, natural subset, real* samples) {
+#pragma unroll
+  for (int j = 0; j < SAMPLES; ++j) {
+    const mask is_offered = to_mask((subset & (1u << j)) != 0u);
+    samples[j] = smaller(choose(is_offered, surface, REAL_INFINITY), samples[j]);
+  }
+}
+
+// The samples stay in order, and the farthest of them and the surface is dropped.
+static inline void insert(real surface, real* samples) {
+#pragma unroll
+  for (int j = 0; j < SAMPLES; ++j) {
+    const real further = larger(surface, samples[j]);
+    samples[j] = smaller(surface, samples[j]);
+    surface = further;
+  }
+}
+
+// in : depth, peel; slices
 // out: stochastic
 kernel void stochastic_depth_map(ARGUMENTS) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const natural x = to_natural(FIRST_X + IOTA), y = (natural)((uint)ROW_Y), seed = (natural)((uint)frame.seed);
-  const natural first = as_natural(to_stored(load(depth, here)));
+  const real seen = load(depth, here);
+  const natural first = as_natural(to_stored(seen));
   const uint alpha = (uint)(params.alpha * STOCHASTIC_ONE);
-  real nearest[SAMPLES];
+#if RELEVANT
+  const integer tile = min(FIRST_X + IOTA, (integer)(frame.width - 1)) / TILE;
+  const natural relevant = to_natural(gather(slices + index_of(other, 0, ROW_Y / TILE), tile));
+#endif
+  real samples[SAMPLES];
 #pragma unroll
-  for (int j = 0; j < SAMPLES; ++j) nearest[j] = REAL_INFINITY;
+  for (int j = 0; j < SAMPLES; ++j) samples[j] = REAL_INFINITY;
   for (int k = 0; k < PEEL_LAYERS; ++k) {
-    const real surface = load(layer_of(peel, frame, k), here);
+    real surface = load(layer_of(peel, frame, k), here);
+#if HIDDEN
+    surface = choose(surface > seen, surface, REAL_INFINITY);
+#endif
     if (!ANY(surface < REAL_INFINITY)) continue;
-    const natural subset = subset_of(surface_hash(x, y, seed, as_natural(to_stored(surface)), first), alpha);
-#pragma unroll
-    for (int j = 0; j < SAMPLES; ++j) {
-      const mask is_offered = to_mask((subset & (1u << j)) != 0u);
-      nearest[j] = smaller(choose(is_offered, surface, REAL_INFINITY), nearest[j]);
-    }
+#if RELEVANT
+    const natural slice = slice_where(surface < REAL_INFINITY, surface, params.radius);
+    surface = choose(to_mask((relevant & slice) != 0u), surface, REAL_INFINITY);
+#endif
+#if !JITTER
+    insert(surface, samples);
+#else
+    offer(surface, subset_of(surface_hash(x, y, seed, as_natural(to_stored(surface)), first), alpha), samples);
+#endif
   }
 #pragma unroll
-  for (int j = 0; j < SAMPLES; ++j) store(nearest[j], layer_of_out(stochastic, frame, j), here);
+  for (int j = 0; j < SAMPLES; ++j) store(samples[j], layer_of_out(stochastic, frame, j), here);
 }

@@ -118,7 +118,8 @@ TEST(CompositeReference, IsWhatIsComposedOfItsParts) {
   const Reference truth = composite_reference(tracer, frame, options);
   EXPECT_EQ(truth.frame.attributes.at("gloamColorHolds"), "ambient,shadows,ao,indirect,reflection");
   View again = without_planes(frame.views[0]);
-  for (const std::string& plane : planes_to_compose()) again.planes[plane] = frame.views[0].find(plane)->clone();
+  for (const std::string& plane : planes_to_compose())
+    if (const Plane* own = frame.views[0].find(plane)) again.planes[plane] = own->clone();
   compose(again, truth.frame.views[0], composition_of(common_planes(frame), {"ao", "indirect", "reflection"}, {}));
   for (size_t i = 0; i < 3; ++i)
     for (int y = 0; y < 9; ++y)
@@ -128,6 +129,39 @@ TEST(CompositeReference, IsWhatIsComposedOfItsParts) {
   const Reference ao = ao_reference(tracer, frame, {.radius = options.radius, .samples = 32});
   EXPECT_EQ(ao.frame.views[0].planes.at("ao").channels[0].at(8, 4),
             truth.frame.views[0].planes.at("ao").channels[0].at(8, 4));
+}
+
+// Without knowing its ambient light, AO darkens all of a colour but the light that a wall sends of its own.
+TEST(CompositeReference, LightOfItsOwnStays) {
+  Scene scene = corner_of_meshes(40, 1);
+  scenes::add_material(scene, "wall", vec3(0.5f));
+  scene.materials[1].emission = vec3(3, 1, 0.25f);
+  set_sky(scene, vec3(1));
+  const Tracer tracer(scene);
+  CaptureOptions capturing;
+  capturing.width = 16;
+  capturing.height = 9;
+  capturing.planes = {"normal", "position", "color", "emission"};
+  capturing.views = {{"", camera_for(tracer.scene().cameras.front(), 16, 9), {}}};
+  const Frame frame = std::move(capture(tracer, capturing).frame);
+  CompositeReferenceOptions options;
+  options.samples = 32;
+  options.radius = infinity;
+  options.holds = parse_color_holds("ambient,shadows,indirect,reflection", "test");
+  const Reference truth = composite_reference(tracer, frame, options);
+  const View &from = frame.views[0], &to = truth.frame.views[0];
+  int shining = 0;
+  for (int y = 0; y < 9; ++y)
+    for (int x = 0; x < 16; ++x) {
+      const float open = to.find("ao")->channels[0].at(x, y);
+      for (size_t i = 0; i < 3; ++i) {
+        const float colour = from.find("color")->channels[i].at(x, y),
+                    emission = from.find("emission")->channels[i].at(x, y);
+        ASSERT_NEAR(to.find("color")->channels[i].at(x, y), emission + (colour - emission) * open, 1e-6f);
+        shining += emission > 0 && open < 0.9f;
+      }
+    }
+  EXPECT_GT(shining, 20);
 }
 
 TEST(CompositeReference, ASunWithoutShadowsInColourGetsThem) {

@@ -102,7 +102,7 @@ TEST(Evidence, MoreSamplesAreNoSurerOfWhatIsHidden) {
 
 TEST(Evidence, LayersAreNearerToTheTruth) {
   double sum_of_one = 0, sum_of_known = 0, sum_of_all = 0;
-  for (const char* name : {"courtyard", "gallery", "temple"}) {
+  for (const char* name : {"courtyard", "gallery", "temple", "banquet", "fence"}) {
     const gloam::Scene scene = load_scene(name, {});
     const Frame frame = seen_in(scene);
     const Frame truth = ao_reference(Tracer(scene), frame, {.radius = scene.ao_radius, .samples = 64}).frame;

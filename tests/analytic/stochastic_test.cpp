@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
+#include <tuple>
 
 #include "gloam/planes.h"
 #include "gloam/scene/capture.h"
@@ -13,10 +14,10 @@
 namespace gloam::test::stochastic_test {
 namespace {
 
-/// From the first camera, with all layers that can be stored.
-Frame captured(const std::string& name) {
-  const gloam::Scene scene = load_scene(name, {});
-  CaptureOptions options{.width = 480, .height = 270, .planes = {"depth", "normal"}, .peel = 32};
+/// From the first camera, with the first `layers` layers.
+Frame captured(const std::string& name, const Settings& settings = {}, int layers = 32) {
+  const gloam::Scene scene = load_scene(name, settings);
+  CaptureOptions options{.width = 480, .height = 270, .planes = {"depth", "normal"}, .peel = layers};
   options.views = {{"", camera_for(scene.cameras.front(), options.width, options.height), {}}};
   return capture(Tracer(scene), options).frame;
 }
@@ -54,22 +55,36 @@ TEST_P(StochasticDepthOn, ClosesTheGapToAllLayers) {
   };
   const Channel all_layers = image("dp-hbao", {});
   const double gap = rmse(frame, image("hbao", {}), all_layers);
-  std::printf("%s: hbao to dp-hbao %.4f; closed", GetParam().c_str(), gap);
-  std::map<int, double> closed;
-  double before = gap;
-  for (const int samples : {1, 2, 4, 8, 16}) {
-    const double left = rmse(frame, image("sd-hbao", {{"samples", std::to_string(samples)}}), all_layers);
-    EXPECT_LT(left, before) << samples << " samples";
-    before = left;
-    closed[samples] = 1 - left / gap;
-    std::printf(" %.0f %% (%d)", 100 * closed[samples], samples);
+  const auto closed_by = [&](const Settings& map, int samples, const char* compensation = "1") {
+    const Settings settings = joined(map, {{"samples", std::to_string(samples)}, {"compensation", compensation}});
+    return 1 - rmse(frame, image("sd-hbao", settings), all_layers) / gap;
+  };
+  const Settings paper = {{"surfaces", "all"}, {"subset", "stratified"}, {"alpha", "0.2"}},
+                 hidden = {{"surfaces", "hidden"}, {"subset", "stratified"}, {"alpha", "0.25"}}, usual = {};
+  std::map<int, double> by_paper, by_hidden, by_usual;
+  for (const auto& [name, map, closed] :
+       {std::tuple("the paper's map", &paper, &by_paper), std::tuple("hidden surfaces at random", &hidden, &by_hidden),
+        std::tuple("the usual map", &usual, &by_usual)}) {
+    std::printf("%s, %s: hbao to dp-hbao %.4f; closed", GetParam().c_str(), name, gap);
+    double before = 0;
+    for (const int samples : {1, 2, 4, 8, 16}) {
+      const double share = (*closed)[samples] = closed_by(*map, samples);
+      EXPECT_GT(share, before) << name << ", " << samples << " samples";
+      before = share;
+      std::printf(" %.0f %% (%d)", 100 * share, samples);
+    }
+    std::printf("\n");
   }
-  const double compensated =
-      1 - rmse(frame, image("sd-hbao", {{"samples", "4"}, {"compensation", "1.3"}}), all_layers) / gap;
-  std::printf("; 4 with compensation 1.3: %.0f %%\n", 100 * compensated);
-  EXPECT_GE(closed[4], 0.5);
-  EXPECT_GE(closed[8], 0.65);
-  EXPECT_GT(compensated, closed[4]);
+  const double compensated = closed_by(paper, 4, "1.3");
+  std::printf("the paper's with compensation 1.3: %.0f %% (4)\n", 100 * compensated);
+  EXPECT_GE(by_paper[4], 0.5);
+  EXPECT_GE(by_paper[8], 0.65);
+  EXPECT_GT(compensated, by_paper[4]);
+  for (const int samples : {1, 2, 4, 8, 16}) EXPECT_GT(by_hidden[samples], by_paper[samples]) << samples;
+  EXPECT_GE(by_hidden[4], 0.65);
+  for (const int samples : {2, 4, 8, 16}) EXPECT_GT(by_usual[samples], by_hidden[samples]) << samples;
+  EXPECT_GE(by_usual[4], 0.75);
+  EXPECT_GE(by_usual[8], 0.85);
 }
 
 /// The effect of the paper's early-out, and of the default one: next to nothing.
@@ -92,6 +107,61 @@ TEST_P(StochasticDepthOn, EarlyOutCostsLittle) {
     EXPECT_LT(left["below"], gap) << sd;
     EXPECT_LT(left["on"], gap) << sd;
     EXPECT_LE(left["below"], left["off"] + 0.05 * gap) << sd;
+  }
+}
+
+/// The mean of what sd-hbao takes, over that of all layers, on a pillar with sheets between it and the rib that it hides. The nearest
+/// hidden surfaces are the sheets; of relevant ones the rib is among the first, however many sheets there are.
+TEST(StochasticDepth, RelevantSurfacesAreFoundBehindAnyNumberOfSheets) {
+  for (const int sheets : {0, 10}) {
+    const Frame frame = captured("pillar", {{"sheets", std::to_string(sheets)}});
+    const auto taken = [&](const std::string& technique, const Settings& settings) {
+      const Channel ao = unfiltered(frame, technique, joined(directions_of_the_paper, settings), 0.5);
+      const Channel& depth = frame.views[0].planes.at("depth").channels[0];
+      double sum = 0;
+      for (int y = 0; y < frame.height(); ++y) {
+        for (int x = 0; x < frame.width(); ++x) sum += is_background(depth.at(x, y)) ? 0 : 1 - double(ao.at(x, y));
+      }
+      return sum;
+    };
+    const double all = taken("dp-hbao", {}), hidden = taken("sd-hbao", {{"surfaces", "hidden"}}) / all,
+                 relevant = taken("sd-hbao", {{"surfaces", "relevant"}}) / all,
+                 at_random = taken("sd-hbao", {{"surfaces", "relevant"}, {"subset", "stratified"}}) / all;
+    std::printf("%d sheets: of all layers hidden %.3f, relevant %.3f, relevant at random %.3f\n", sheets, hidden,
+                relevant, at_random);
+    EXPECT_GT(relevant, 0.99) << sheets;
+    EXPECT_GT(at_random, 0.7) << sheets;
+    if (sheets == 0) {
+      EXPECT_GT(hidden, 0.99);
+    } else {
+      EXPECT_LT(hidden, 0.05);
+    }
+  }
+}
+
+/// What is left out of a map of relevant surfaces cannot count: with room for all others not a bit changes. Without ssao, whose `range`
+/// reaches behind the ball of its points.
+TEST(StochasticDepth, SurfacesThatAreNotRelevantCannotCount) {
+  const Frame frame = captured("corridor", {}, 16);
+  const auto held = [&](const char* surfaces) {
+    Frame copy = clone(frame);
+    const Frame map = outputs_of(find_technique("stochastic-depth"), copy,
+                                 {{"samples", "16"}, {"surfaces", surfaces}, {"radius", "0.5"}}, {});
+    long long count = 0;
+    for (const auto& [name, plane] : map.views[0].planes) {
+      for (int y = 0; y < map.height(); ++y) {
+        for (int x = 0; x < map.width(); ++x) count += !is_background(plane.channels[0].at(x, y));
+      }
+    }
+    return count;
+  };
+  EXPECT_LT(held("relevant"), 0.97 * double(held("hidden"))) << "some are left out";
+  for (const char* technique : {"hbao", "hbao+", "gtao", "bitmask", "alchemy", "sao", "evidence"}) {
+    const auto image = [&](const char* surfaces) {
+      return unfiltered(frame, std::string("sd-") + technique,
+                        {{"samples", "16"}, {"early_out", "off"}, {"surfaces", surfaces}}, 0.5);
+    };
+    EXPECT_EQ(rmse(frame, image("relevant"), image("hidden")), 0) << technique;
   }
 }
 

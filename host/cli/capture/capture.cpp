@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/elapsed.h"
+#include "camera/camera_json.h"
 #include "cli/capture/command.h"
 #include "cli/capture/flags.h"
 #include "cli/capture/shots.h"
@@ -94,9 +95,11 @@ void check_flags(const CaptureCommand& flags) {
     throw UsageError("--picture shows the plane color; add it to --planes");
 }
 
-Choices<OutlineMethod> methods_by_name() {
-  Choices<OutlineMethod> choices;
-  for (const std::string& name : outline_methods()) choices.emplace_back(name, OutlineMethod(choices.size()));
+/// Words for the values of an enumeration, which are numbered from 0.
+template <typename Value>
+Choices<Value> by_name(const std::vector<std::string>& names) {
+  Choices<Value> choices;
+  for (const std::string& name : names) choices.emplace_back(name, Value(choices.size()));
   return choices;
 }
 
@@ -119,7 +122,9 @@ void check_files(const CaptureCommand& flags, const std::vector<CaptureShot>& sh
 
 CaptureOptions options_of(const CaptureCommand& flags) {
   CaptureOptions options;
-  if (flags.size) std::tie(options.width, options.height) = *flags.size;
+  std::optional<Size> size = flags.size;
+  if (!size && !flags.path.empty()) size = stated_size(flags.path);
+  if (size) std::tie(options.width, options.height) = *size;
   options.planes = planes_of(flags);
   options.peel = flags.peel;
   options.peel_light = flags.peel_light;
@@ -205,23 +210,30 @@ void add_capture(CLI::App& app) {
   add_text(*command, "scene", flags->scene.scene, "SCENE", "OBJ or glTF file, or a name of gloam list scenes")
       ->required();
   add_text(*command, "-o,--output", flags->out, "FRAME.exr", "EXR file to write")->required();
-  add_parsed(*command, "--size", flags->size, parse_size, "of the image; default 1920x1080", "WxH");
+  add_parsed(*command, "--size", flags->size, parse_size,
+             "of the image; default: that of the file of --camera-path, else 1920x1080", "WxH");
   add_text(*command, "--planes", flags->planes, "A,B", "these planes and depth only: " + enumerate(capture_planes()));
   add_number(*command, "--peel", flags->peel, {0, 64}, "depth layers to store per pixel, 0 to 64", "N");
   command->add_flag("--peel-light", flags->peel_light,
                     "with --peel: also colour and normal of each layer, for light from hidden surfaces (dp-indirect)");
   add_number(*command, "--stochastic", flags->stochastic, {1, 16},
-             "samples of a stochastic depth map of all surfaces, 1 to 16", "S");
+             "depths per pixel of a map of surfaces for techniques over stochastic depth, 1 to 16", "S");
+  add_choice(*command, "--stochastic-surfaces", flags->stochastic_surfaces,
+             by_name<StochasticSurfaces>(stochastic_surfaces()),
+             "which surfaces the map is made of: all, or those behind the nearest; default hidden");
+  add_choice(
+      *command, "--stochastic-subset", flags->stochastic_subset, by_name<StochasticSubset>(stochastic_subsets()),
+      "which of these each depth holds: chosen at random, stratified; or the nearest, front to back; default nearest");
   add_number(
       *command, "--alpha", flags->alpha, {0, 1},
-      "of --stochastic: the share of a pixel's samples that a surface may take, so that others show what is behind "
-      "it; smaller shows more of what is far behind; default 0.2",
+      "of a stratified map: the share of a pixel's samples that a surface may take, so that others show what is behind "
+      "it; smaller shows more of what is far behind; default 0.25",
       "A");
-  add_number(*command, "--stochastic-seed", flags->stochastic_seed, allowed_seeds, "of its random choices; default 0",
-             "N");
+  add_number(*command, "--stochastic-seed", flags->stochastic_seed, allowed_seeds,
+             "of the random choices of a stratified map; default 0", "N");
   add_number(*command, "--outlines", flags->outlines, {1e-15, 1e15},
              "count per pixel the outlines, that many scene units around the objects, that it is in", "EXTENT");
-  add_choice(*command, "--outline-method", flags->outline_method, methods_by_name(),
+  add_choice(*command, "--outline-method", flags->outline_method, by_name<OutlineMethod>(outline_methods()),
              "how outlines are made; default mitre");
   add_number(*command, "--outline-angle", flags->outline_angle, {0, 90},
              "degrees between face normals that count as one, 0 to 90; default 1", "DEGREES");
@@ -260,7 +272,7 @@ void add_capture(CLI::App& app) {
       "  gloam capture colonnade -o pair.exr --stereo 0.065 --convergence 2\n"
       "  gloam capture gallery -o 'shot.####.exr' --shot walk --frames 1-12 --size 960x540\n"
       "  gloam capture statue -o modules.exr --display data/displays/small.json\n"
-      "  gloam capture hairball -o hair.exr --stochastic 16 --alpha 0.1 --stochastic-seed 7\n"
+      "  gloam capture hairball -o hair.exr --stochastic 16 --stochastic-subset stratified --alpha 0.1\n"
       "  gloam capture gallery -o gallery.exr --sky sky.exr\n"
       "  gloam capture house.glb -o house.exr --camera Kitchen --planes depth,normal\n"
       "  gloam capture house.obj -o house.exr --eye 4,1.7,6 --target 0,1,0 --fov 70");

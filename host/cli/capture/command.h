@@ -19,6 +19,8 @@ struct CaptureCommand {
   int peel = 0;
   bool peel_light = false;
   std::optional<int> stochastic, stochastic_seed;
+  std::optional<StochasticSurfaces> stochastic_surfaces;
+  std::optional<StochasticSubset> stochastic_subset;
   std::optional<double> alpha, view2, stereo, convergence, outlines, outline_angle;
   std::optional<OutlineMethod> outline_method;
   bool half = false, toe_in = false, separate = false;

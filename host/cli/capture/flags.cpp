@@ -1,6 +1,7 @@
 #include "cli/capture/flags.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "gloam/error.h"
 
@@ -18,13 +19,20 @@ std::vector<std::string> planes_of(const CaptureCommand& flags) {
 
 StochasticOptions stochastic_of(const CaptureCommand& flags) {
   StochasticOptions options;
-  if (!flags.stochastic) {
-    if (flags.alpha) throw UsageError("--alpha is for a stochastic depth map; give --stochastic S too");
-    if (flags.stochastic_seed)
-      throw UsageError("--stochastic-seed is for a stochastic depth map; give --stochastic S too");
-    return options;
+  options.subset = flags.stochastic_subset.value_or(options.subset);
+  const bool is_random = options.subset != StochasticSubset::nearest;
+  for (const auto& [flag, is_given, needs_chance] :
+       {std::tuple("--stochastic-surfaces", flags.stochastic_surfaces.has_value(), false),
+        std::tuple("--stochastic-subset", flags.stochastic_subset.has_value(), false),
+        std::tuple("--alpha", flags.alpha.has_value(), true),
+        std::tuple("--stochastic-seed", flags.stochastic_seed.has_value(), true)}) {
+    if (!is_given) continue;
+    if (!flags.stochastic) throw UsageError("{} is for a stochastic depth map; give --stochastic S too", flag);
+    if (needs_chance && !is_random)
+      throw UsageError("{} is for surfaces chosen at random; give --stochastic-subset stratified too", flag);
   }
-  options.samples = *flags.stochastic;
+  options.samples = flags.stochastic.value_or(0);
+  options.surfaces = flags.stochastic_surfaces.value_or(options.surfaces);
   options.alpha = flags.alpha.value_or(options.alpha);
   options.seed = flags.stochastic_seed.value_or(options.seed);
   return options;

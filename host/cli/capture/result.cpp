@@ -16,7 +16,12 @@ double span_of(const Camera& camera, int width) {
 
 Json stochastic_document(const StochasticOptions& options) {
   if (options.samples == 0) return nullptr;
-  return {{"samples", options.samples}, {"alpha", options.alpha}, {"seed", options.seed}};
+  const bool is_random = options.subset != StochasticSubset::nearest;
+  return {{"samples", options.samples},
+          {"surfaces", stochastic_surfaces()[size_t(options.surfaces)]},
+          {"subset", stochastic_subsets()[size_t(options.subset)]},
+          {"alpha", is_random ? Json(options.alpha) : Json()},
+          {"seed", is_random ? Json(options.seed) : Json()}};
 }
 
 Json outlines_document(const CaptureOptions& options, const CaptureFigures& f) {
@@ -87,8 +92,13 @@ void print_capture(const Scene& scene, const CaptureOptions& options, const Capt
   if (options.peel > 0)
     fmt::print("layers under a pixel: mean {:.2f}, most {}; {} stored\n", f.layers.mean(), f.layers.most, options.peel);
   if (options.stochastic.samples > 0)
-    fmt::print("stochastic depth: {} samples, alpha {:g}; choosing them took {:.3f} s of the tracing\n",
-               options.stochastic.samples, options.stochastic.alpha, f.stochastic);
+    fmt::print("stochastic depth: {} samples of {} surfaces, {}{}; choosing them took {:.3f} s of the tracing\n",
+               options.stochastic.samples, stochastic_surfaces()[size_t(options.stochastic.surfaces)],
+               stochastic_subsets()[size_t(options.stochastic.subset)],
+               options.stochastic.subset == StochasticSubset::nearest
+                   ? ""
+                   : fmt::format(", alpha {:g}", options.stochastic.alpha),
+               f.stochastic);
   if (options.outlines)
     fmt::print("outlines: {:g} scene units away, {}; building them took {:.3f} s, counting {:.3f} s of the tracing\n",
                options.outlines->options().extent, outline_methods()[size_t(options.outlines->options().method)],

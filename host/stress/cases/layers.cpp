@@ -37,15 +37,29 @@ Frame with_layers(const Technique& technique, int count) {
   return frame;
 }
 
+/// A way to choose surfaces.
+struct LayerChoice {
+  std::string surfaces, subset, alpha;
+};
+
+std::string choice_in_words(const LayerChoice& choice) {
+  return fmt::format("surfaces {}, {}, alpha {}", choice.surfaces, choice.subset, choice.alpha);
+}
+
+const LayerChoice takes_the_nearest = {"all", "stratified", "1"};
+
 /// Settings by which `samples` depths are drawn, and as many are read.
-Settings settings_of(const Technique& technique, Frame& frame, const std::string& samples, const std::string& alpha) {
+Settings settings_of(const Technique& technique, Frame& frame, const std::string& samples, const LayerChoice& choice) {
   Settings settings = few_samples(technique);
   for (const PlannedPass& planned : plan_for(technique, frame).passes) {
     const Technique& t = *planned.technique;
     const bool draws = planned.values.has("alpha");
     const bool reads = std::find(t.reads.begin(), t.reads.end(), "stochastic") != t.reads.end();
     if (draws || reads) settings.emplace_back(t.name + ".samples", samples);
-    if (draws) settings.emplace_back(t.name + ".alpha", alpha);
+    if (!draws) continue;
+    settings.emplace_back(t.name + ".surfaces", choice.surfaces);
+    settings.emplace_back(t.name + ".subset", choice.subset);
+    settings.emplace_back(t.name + ".alpha", choice.alpha);
   }
   return settings;
 }
@@ -99,13 +113,13 @@ void all_samples_take_the_nearest(Probe& probe) {
         continue;
       Frame deep = with_layers(probe.technique(), 64);
       Frame flat = with_depth_for_stochastic_ones(probe.technique(), samples);
-      const Settings settings = settings_of(probe.technique(), deep, samples, "1");
+      const Settings settings = settings_of(probe.technique(), deep, samples, takes_the_nearest);
       const Frame out = probe.outputs(deep, settings, way);
       if (chooser(plan_for(probe.technique(), deep)) == &probe.technique())
         probe.measure_bits("alpha 1: difference to the ordinary depth", out, only_stochastic(flat));
       else
         probe.measure_bits("alpha 1: difference to the ordinary depth", out,
-                           probe.outputs(flat, settings_of(probe.technique(), flat, samples, "1"), way));
+                           probe.outputs(flat, settings_of(probe.technique(), flat, samples, takes_the_nearest), way));
     }
   }
 }
@@ -113,21 +127,28 @@ void all_samples_take_the_nearest(Probe& probe) {
 void any_layers_and_samples(Probe& probe) {
   if (!chooses(probe)) return;
   for (const std::string& samples : sample_counts(probe)) {
-    for (const char* alpha : {"0", "0.2", "1"}) {
+    for (const LayerChoice& choice : std::initializer_list<LayerChoice>{{"all", "stratified", "0"},
+                                                                        {"all", "stratified", "0.2"},
+                                                                        {"all", "stratified", "1"},
+                                                                        {"hidden", "hashed", "0.25"},
+                                                                        {"hidden", "nearest", "0"},
+                                                                        {"relevant", "nearest", "0"}}) {
       for (const int layers : {0, 1, 3, 64}) {
         for (const RunOptions& way : probe.ways_of_rare_settings()) {
-          if (!probe.tries(fmt::format("alpha {}, {} samples, {} layers, {}", alpha, samples, layers, text_of(way))))
+          if (!probe.tries(
+                  fmt::format("{}, {} samples, {} layers, {}", choice_in_words(choice), samples, layers, text_of(way))))
             continue;
           Frame frame = with_layers(probe.technique(), layers);
           probe.measure_violation("value out of its range",
-                                  probe.outputs(frame, settings_of(probe.technique(), frame, samples, alpha), way));
+                                  probe.outputs(frame, settings_of(probe.technique(), frame, samples, choice), way));
         }
       }
     }
   }
 }
 
-/// Sample j holds surface i, counted from 0, with probability alpha (1 - alpha)^i (Vermeer 2021, section 3.1).
+/// Sample j holds surface i of those offered, counted from 0, with probability alpha (1 - alpha)^i (Vermeer 2021, section 3.1). Where
+/// only hidden surfaces are offered, it never holds the depth itself.
 void shares_of_layers(Probe& probe) {
   if (!chooses(probe)) return;
   Frame probing = with_layers(probe.technique(), 3);
@@ -135,14 +156,16 @@ void shares_of_layers(Probe& probe) {
   if (chooser(plan) != &probe.technique()) return;
   constexpr int layers = 8, seeds = 16;
   for (const std::string& samples : sample_counts(probe)) {
-    for (const double alpha : {0.0, 0.1, 0.2, 0.5, 1.0}) {
-      if (!probe.tries(fmt::format("alpha {}, {} samples, shares of {} layers", alpha, samples, layers))) continue;
+    for (const auto& [surfaces, alpha] : std::initializer_list<std::pair<const char*, double>>{
+             {"all", 0.0}, {"all", 0.1}, {"all", 0.2}, {"all", 0.5}, {"all", 1.0}, {"hidden", 0.25}, {"hidden", 1.0}}) {
+      const LayerChoice choice = {surfaces, "stratified", exact(alpha)};
+      if (!probe.tries(fmt::format("{}, {} samples, shares of {} layers", choice_in_words(choice), samples, layers)))
+        continue;
       Frame frame = with_layers(probe.technique(), layers);
       std::vector<double> shares(layers);
       double count = 0;
       for (int seed = 0; seed < seeds; ++seed) {
-        const Frame out =
-            probe.outputs(frame, settings_of(probe.technique(), frame, samples, exact(alpha)), {.seed = seed});
+        const Frame out = probe.outputs(frame, settings_of(probe.technique(), frame, samples, choice), {.seed = seed});
         for (const auto& [name, plane] : out.views[0].planes) {
           if (!stack_layer(name)) continue;
           for (int y = 0; y < frame.height(); ++y) {
@@ -155,9 +178,10 @@ void shares_of_layers(Probe& probe) {
           }
         }
       }
-      double worst = 0;
-      for (int i = 0; i < layers; ++i)
-        worst = std::max(worst, std::abs(shares[size_t(i)] / count - alpha * std::pow(1 - alpha, i)));
+      const int first = choice.surfaces == "hidden" ? 1 : 0;
+      double worst = first == 0 ? 0 : shares[0];
+      for (int i = first; i < layers; ++i)
+        worst = std::max(worst, std::abs(shares[size_t(i)] / count - alpha * std::pow(1 - alpha, i - first)));
       // Independent draws would scatter by sqrt(0.25 / 70 000) = 0.002 for one sample, and less for more.
       probe.measure("share of samples that hold a layer: distance from alpha (1 - alpha)^i", worst, 8e-3);
     }
@@ -169,12 +193,12 @@ void shares_of_layers(Probe& probe) {
 namespace case_files {
 
 std::vector<Case> layers() {
-  return {
-      {20,
-       "stochastic depth of every kind",
-       "1 to 16 samples, alpha 0 to 1, one layer or 64 give values in their range; with alpha 1 hidden layers change "
-       "no bit; layers are chosen as often as the formula says.",
-       {all_samples_take_the_nearest, any_layers_and_samples, shares_of_layers}}};
+  return {{20,
+           "stochastic depth of every kind",
+           "1 to 16 samples, all surfaces or hidden ones, alpha 0 to 1, one layer or 64 give values in their range; "
+           "with alpha 1 and all surfaces hidden layers change no bit; layers are chosen as often as the formula says, "
+           "hidden ones alone where only these are offered.",
+           {all_samples_take_the_nearest, any_layers_and_samples, shares_of_layers}}};
 }
 
 }  // namespace case_files
