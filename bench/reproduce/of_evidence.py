@@ -84,6 +84,7 @@ def spectrum(lab):
 
 
 record(PAGE, "Open surfaces stay open", why="the terms before are no longer part of the project")
+record(PAGE, "A second look", why="made once with the Python module: the frame before as the second of two arrays of stereo-evidence")
 
 
 @table(PAGE, "Light of an environment", minutes=12)

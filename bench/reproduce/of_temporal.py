@@ -26,17 +26,26 @@ def errors_and_flicker(lab, technique, kind, shots, size, frames, rays):
     return rows
 
 
-@table(PAGE, "What it brings", minutes=24, within=SENSITIVE)
-def gtao(lab):
-    return errors_and_flicker(lab, "gtao", "ao", SHOTS, "960x540", "8-12", 256)
+def of_technique(lab, technique):
+    return errors_and_flicker(lab, technique, "ao", SHOTS, "640x360", "8-12", 256)
 
 
-@table(PAGE, "What it brings", 2, minutes=24, within=SENSITIVE)
+@table(PAGE, "What it brings", minutes=6, within=SENSITIVE)
 def evidence(lab):
-    return errors_and_flicker(lab, "evidence", "ao", SHOTS, "960x540", "8-12", 256)
+    return of_technique(lab, "evidence")
 
 
-@table(PAGE, "What it brings", 3, minutes=1, within=SENSITIVE)
+@table(PAGE, "What it brings", 2, minutes=6, within=SENSITIVE)
+def gtao(lab):
+    return of_technique(lab, "gtao")
+
+
+@table(PAGE, "What it brings", 3, minutes=6, within=SENSITIVE)
+def bitmask(lab):
+    return of_technique(lab, "bitmask")
+
+
+@table(PAGE, "What it brings", 4, minutes=1, within=SENSITIVE)
 def two_eyes(lab):
     shot, frames, rows = shot_of(lab, "gallery", "walk", "640x360", 12, "--stereo", 0.064), "9-12", []
     truth = lab.truth("ao", shot, 256, "--frames", frames)
@@ -49,6 +58,6 @@ def two_eyes(lab):
     return rows
 
 
-@table(PAGE, "What it brings", 4, minutes=1, within=SENSITIVE)
+@table(PAGE, "What it brings", 5, minutes=1, within=SENSITIVE)
 def indirect(lab):
     return errors_and_flicker(lab, "indirect", "indirect", (SHOTS[0], SHOTS[3]), "480x270", "5-12", 64)

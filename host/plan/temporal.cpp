@@ -88,7 +88,7 @@ Pass reproject_pass(const Plan& plan, const Accumulated& plane) {
     pass.reads.emplace_back("motion");
     pass.defines.emplace_back("WITH_MOTION", 1);
   }
-  pass.writes = {{"before", of_frames_before(plane.raw)}, own("before_frames"), own("moved")};
+  pass.writes = {{"before", of_frames_before(plane.raw)}, own("before_frames"), own("before_count"), own("moved")};
   return pass;
 }
 
@@ -117,6 +117,7 @@ Pass accumulate_pass(const Accumulated& plane) {
                       "depth",
                       {"before", of_frames_before(plane.raw)},
                       own("before_frames"),
+                      own("before_count"),
                       own("tiles_away")},
             .writes = {{"result", plane.raw}, "frames"},
             .defines = components_of(plane),

@@ -50,7 +50,7 @@ kernel void ssr_accumulate(ARGUMENTS) {
   const mask takes_image = as_image.is_known & (!as_surface.is_known | (unlike >= 0));
   const mask is_known = as_surface.is_known | as_image.is_known;
   const real before =
-      clamp(choose(takes_image, value_of(as_image, history_frames), value_of(as_surface, history_frames)), (real)(0),
+      clamp(choose(takes_image, as_image.frames, as_surface.frames), (real)(0),
             (real)((scalar)params.most_frames - 1));
   const real share = quotient((real)(1), before + 1);
   for (int c = 0; c < 4; ++c) {

@@ -5,7 +5,7 @@
 //
 // in : now            raw AO of this frame, 1 = open .. 0 = closed; or its raw light
 //      depth          view-space z, scene units, +inf = background
-//      before, before_frames  of reproject.cl
+//      before, before_frames, before_count  of reproject.cl
 //      tiles_away     of moving.cl, in tiles
 // out: result         mean over the frames; AO of 1 and light of 0 on background
 //      frames         how many frames that is the mean of; 0 on background
@@ -14,6 +14,9 @@
 #include "shared/lanes/components.h"
 #include "shared/lanes/load.h"
 #include "shared/sampling/sample.h"
+
+// A history that counts for so few frames passes by itself, before a comparison of noise with noise could tell.
+#define LEAST_TESTED ((scalar)3)
 
 // Of a value over neighbours: the squared difference of this frame's mean from that of the frame before, and the variance in this
 // frame.
@@ -81,7 +84,7 @@ static inline real frames_alike(Frame frame, Params params, real z, real count, 
   return quotient((real)(1), quotient((real)(1), count) + larger(excess, (real)(0)));
 }
 
-// in : now, depth, before, before_frames, tiles_away
+// in : now, depth, before, before_frames, before_count, tiles_away
 // out: result, frames
 kernel void temporal_accumulate(ARGUMENTS) {
   const Sources nows = SOURCE_PLANES(now), befores = SOURCE_PLANES(before);
@@ -89,22 +92,23 @@ kernel void temporal_accumulate(ARGUMENTS) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
   const real z = load(depth, here);
   const mask is_surface = !is_background(z);
-  real count = load(before_frames, here);
+  real seen = load(before_frames, here), count = load(before_count, here);
   const scalar tiles = tiles_away[index_of(other, FIRST_X / TILE, ROW_Y / TILE)];
   // From pixel to pixel at least; a tile beside that of the pixel may begin at the next pixel.
   const scalar pixels = (tiles - 1) * TILE;
   const real reach = (scalar)params.radius / ((scalar)frame.scale_x * (frame.perspective * z + frame.parallel));
   // Nothing within REACH tiles: the radius may be infinite too.
-  mask may_change = tiles <= REACH ? is_surface & (count > 0) & (reach >= pixels) : (mask)(0);
+  mask may_change = tiles <= REACH ? is_surface & (count > LEAST_TESTED) & (reach >= pixels) : (mask)(0);
   real tolerance = (real)(params.change_tolerance);
 #if COMPONENTS > 1
   // Light also changes where nothing moves, as a lamp goes out.
   tolerance = choose(may_change, tolerance, (real)(params.light_tolerance));
-  may_change = is_surface & (count > 0);
+  may_change = is_surface & (count > LEAST_TESTED);
 #endif
   if (ANY(may_change)) {
     const real alike = frames_alike(frame, params, z, choose(may_change, count, (real)(1)), tolerance, nows, depth,
                                     befores, before_frames);
+    seen = choose(may_change & (alike < count), alike, seen);
     count = choose(may_change, alike, count);
   }
 #pragma unroll
@@ -112,5 +116,5 @@ kernel void temporal_accumulate(ARGUMENTS) {
     const real mean = mean_of(load(befores.planes[c], here) * count + load(nows.planes[c], here), count + 1);
     store(choose(is_surface, mean, NO_RESULT), results.planes[c], here);
   }
-  store(choose(is_surface, count + 1, (real)(0)), frames, here);
+  store(choose(is_surface, seen + 1, (real)(0)), frames, here);
 }

@@ -5,7 +5,8 @@
 //      motion         pixels, from this frame to the one before, y down (WITH_MOTION); without it, nothing moves but the camera
 //      history, history_depth, history_frames  of the frame before, which `neighbour` shows
 // out: before         mean of `history` over earlier frames; 0 where nothing is known
-//      before_frames  how many frames that mean counts for; 0 where nothing is known
+//      before_frames  how many frames have shown the surface; 0 where nothing is known
+//      before_count   how many frames `before` counts for beside this one; 0 where nothing is known
 //      moved          1 where a surface moves by itself, or where one has come or gone; else 0
 // -D WITH_MOTION, COMPONENTS (of `history`)
 #include "shared/frame/history.h"
@@ -71,14 +72,37 @@ static inline mask has_gone(Frame frame, Neighbour neighbour, Params params, PLA
   return now.is_seen & (gather(depth, pixel) > now.depth * (1 + (scalar)params.depth_change));
 }
 
-static inline void store_nothing(Results before, PLANE_OUT before_frames, PLANE_OUT moved, int here) {
+// From a point at rest to the eye, against the view: the point itself, or ahead where rays are parallel.
+static inline real3 line_of_sight(Frame f, real3 point) {
+  return make3(f.perspective * point.x, f.perspective * point.y, f.perspective * point.z - f.parallel);
+}
+
+// The sine of the angle by which the line of sight to a point at rest has turned since the frame before.
+static inline real turn_of(Frame frame, Neighbour neighbour, real3 point) {
+  const real3 a = line_of_sight(frame, point);
+  const real3 b = rotated_back(neighbour, line_of_sight(neighbour.frame, into_other(neighbour, point)));
+  const real3 across = make3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+  return sqrt(quotient(dot3(across, across), dot3(a, a) * dot3(b, b)));
+}
+
+// How much the history counts for, as 1 / frames: what is seen under another angle has other samples behind and beside it.
+static inline real forgotten(Params params, real count, real share, real lag, mask moves_by_itself) {
+  const real settled = larger(count - 1, (real)(1e-3f));
+  const real turned = (scalar)params.turn_loss + quotient((real)((scalar)params.new_loss), settled);
+  const real loss = quotient((real)(1), larger(count, (real)(1))) + params.edge_loss * (1 - share) + lag * turned;
+  return choose(moves_by_itself, larger(loss, (real)((scalar)params.motion_loss)), loss);
+}
+
+static inline void store_nothing(Results before, PLANE_OUT before_frames, PLANE_OUT before_count, PLANE_OUT moved,
+                                 int here) {
   store_all((real)(0), before, here);
   store((real)(0), before_frames, here);
+  store((real)(0), before_count, here);
   store((real)(0), moved, here);
 }
 
 // in : depth, normal, history, history_depth, history_frames; motion
-// out: before, before_frames, moved
+// out: before, before_frames, before_count, moved
 kernel void temporal_reproject(ARGUMENTS) {
   const Sources histories = SOURCE_PLANES(history);
   const Results befores = RESULT_PLANES(before);
@@ -86,7 +110,7 @@ kernel void temporal_reproject(ARGUMENTS) {
   const real z = load(depth, here);
   const mask is_surface = !is_background(z);
   if (!ANY(is_surface)) {
-    store_nothing(befores, before_frames, moved, here);
+    store_nothing(befores, before_frames, before_count, moved, here);
     return;
   }
   const real depth_here = choose(is_surface, z, (real)(1));
@@ -109,15 +133,20 @@ kernel void temporal_reproject(ARGUMENTS) {
   find_same(neighbour, params, past, plane, corners, history_depth, is_same, &is_all_behind);
   real share;
   const Past same = past_of_same(corners, history_frames, is_same, &share);
-  const real count = value_of(same, history_frames);
-  const real known = quotient((real)(1), quotient((real)(1), larger(count, (real)(1))) + params.edge_loss * (1 - share));
-  const mask is_known = same.is_known & is_surface;
+  const real count = smaller(share * same.frames, (real)((scalar)params.most_frames - 1));
+  const mask is_known = same.is_known & is_surface & (count > 0);
 #pragma unroll
   for (int c = 0; c < COMPONENTS; ++c)
     store(choose(is_known, value_of(same, histories.planes[c]), (real)(0)), befores.planes[c], here);
-  store(choose(is_known, smaller(known, (real)((scalar)params.most_frames - 1)), (real)(0)), before_frames, here);
+  store(choose(is_known, count, (real)(0)), before_frames, here);
   // Without both poses (frame.h), nothing tells what moves by itself: all may.
   const int has_poses = neighbour.translation[0] == neighbour.translation[0];
+  const real change = has_poses ? turn_of(frame, neighbour, point) * (scalar)(1 / params.turn)
+                                : larger(fabs(past.x - x), fabs(past.y - y));
+  const mask moves_by_itself = has_poses ? !past.is_at_rest : (mask)(0);
+  const real lag = choose(moves_by_itself, (real)(1), smaller(change, (real)(1)));
+  const real loss = forgotten(params, count, share, lag, moves_by_itself);
+  store(choose(is_known, quotient((real)(1), loss), (real)(0)), before_count, here);
   mask has_moved = has_poses ? at_rest.is_seen & !past.is_at_rest : EVERY_LANE;
   if (ANY(is_surface & !is_known))
     has_moved |=

@@ -11,6 +11,7 @@ typedef struct {
   integer pixel[4];  // from the plane's start
   int is_row;        // all lanes together lie in two rows of pixels, as they do where neighbours move alike
   real weight[4];
+  real frames;    // for how many frames something was kept: mean of those that count, 0 where none does
   mask is_known;  // at least one counts
 } Past;
 
@@ -45,18 +46,21 @@ static inline real past_value(Past past, PLANE plane, int k) { return gather_row
 // Leaves the corners that are the same surface, and for which something was kept. `share`: their weight before it is made 1.
 static inline Past past_of_same(Corners corners, PLANE history_frames, const mask* is_same, real* share) {
   Past past = corners.past;
-  real sum = 0;
+  real sum = 0, frames = 0;
 #pragma unroll
   for (int k = 0; k < 4; ++k) {
-    const mask counts = is_same[k] & corners.is_inside[k] & (past_value(past, history_frames, k) >= (scalar)0.5f);
+    const real kept = past_value(past, history_frames, k);
+    const mask counts = is_same[k] & corners.is_inside[k] & (kept >= (scalar)0.5f);
     past.weight[k] = choose(counts, past.weight[k], (real)(0));
     sum += past.weight[k];
+    frames += choose(counts, past.weight[k] * kept, (real)(0));
   }
   *share = sum;
   past.is_known = sum > (scalar)0.01f;
   const real scale = quotient((real)(1), choose(past.is_known, sum, (real)(1)));
 #pragma unroll
   for (int k = 0; k < 4; ++k) past.weight[k] = choose(past.is_known, past.weight[k] * scale, (real)(0));
+  past.frames = choose(past.is_known, frames * scale, (real)(0));
   return past;
 }
 
