@@ -3,6 +3,7 @@ import re
 import warnings
 
 from catalogue import no_figures, table
+from intervals import ERROR, RATIO
 
 PAGE = "docs/gbuffer.md"
 no_figures(PAGE, "What nothing states", 1, why="what is read as what")
@@ -68,3 +69,47 @@ def conventions_told(lab):
 def meanings_of_depth(lab):
     of_frames = [of_frame(lab, frame) for frame in scenes()]
     return [[(sum(frame[row][column] for frame in of_frames),) for column in range(4)] for row in range(len(of_frames[0]))]
+
+
+MARGINS = (0, 0.25, 0.5, 1, 2)  # radii at the median depth
+BORDER = 40  # pixels
+
+
+def error_and_time(lab, scene, technique, margin):
+    """RMSE over the picture and near its border, and the device's time. margin: in radii."""
+    import gloam
+    import numpy
+    plain = lab.frame(scene, "960x540", "--planes", "normal")
+    radius = lab.figures("info", plain)["radius_pixels"]
+    frame = lab.frame(scene, "960x540", "--planes", "normal", "--overscan", f"{round(margin * radius)}px")
+    truth = gloam.read(lab.truth("ao", plain, 256), planes=["ao", "depth"])
+    result = gloam.read(lab.result(technique, frame, "--preset", "medium"), planes=["ao"])
+    squares, surface = (result["ao"] - truth["ao"]) ** 2, numpy.isfinite(truth["depth"])
+    border = surface.copy()
+    border[BORDER:-BORDER, BORDER:-BORDER] = False
+    told = lab.figures("run", technique, frame, "-o", lab.unused("ao.exr"), "--preset", "medium", "--repeat", 9)
+    return numpy.sqrt(squares[surface].mean()), numpy.sqrt(squares[border].mean()), told["total_ms"]["median"]
+
+
+def with_margins(lab, technique):
+    rows, first = [], None
+    for margin in MARGINS:
+        cells = [error_and_time(lab, scene, technique, margin) for scene in ("courtyard", "colonnade", "temple", "lounge")]
+        time = sum(ms for _, _, ms in cells)
+        first = first or time
+        rows.append([*[(whole, border) for whole, border, _ in cells], time / first])
+    return rows
+
+
+def of_errors_and_time(row, column):
+    return RATIO if column == 4 else ERROR
+
+
+@table(PAGE, "A margin around the picture", minutes=4, within=of_errors_and_time)
+def margins_of_evidence(lab):
+    return with_margins(lab, "evidence")
+
+
+@table(PAGE, "A margin around the picture", 2, minutes=3, within=of_errors_and_time)
+def margins_of_gtao(lab):
+    return with_margins(lab, "gtao")
