@@ -1,8 +1,10 @@
 """docs/gbuffer.md"""
 import re
+import statistics
 import warnings
 
 from catalogue import no_figures, table
+from intervals import ERROR, RATIO
 
 PAGE = "docs/gbuffer.md"
 no_figures(PAGE, "What nothing states", 1, why="what is read as what")
@@ -68,3 +70,59 @@ def conventions_told(lab):
 def meanings_of_depth(lab):
     of_frames = [of_frame(lab, frame) for frame in scenes()]
     return [[(sum(frame[row][column] for frame in of_frames),) for column in range(4)] for row in range(len(of_frames[0]))]
+
+
+MARGINS = (0, 0.25, 0.5, 1, 2)  # radii at the median depth
+BORDER = 40  # pixels
+ROUNDS = range(3)  # in which margins take turns, so that other work slows all of them alike
+
+
+def frames_with_margins(lab, scene):
+    plain = lab.frame(scene, "960x540", "--planes", "normal")
+    radius = lab.figures("info", plain)["radius_pixels"]
+    return plain, [lab.frame(scene, "960x540", "--planes", "normal", "--overscan", f"{round(margin * radius)}px") for margin in MARGINS]
+
+
+def errors_with_margin(lab, technique, frame, truth):
+    """RMSE over the picture, and near its border."""
+    import gloam
+    import numpy
+    truth, result = gloam.read(truth, planes=["ao", "depth"]), gloam.read(lab.result(technique, frame, "--preset", "medium"), planes=["ao"])
+    squares, surface = (result["ao"] - truth["ao"]) ** 2, numpy.isfinite(truth["depth"])
+    border = surface.copy()
+    border[BORDER:-BORDER, BORDER:-BORDER] = False
+    return numpy.sqrt(squares[surface].mean()), numpy.sqrt(squares[border].mean())
+
+
+def times_of_kernels(lab, technique, frames):
+    """Seconds that the processors take for a run, without what a command does once."""
+    def seconds(frame, runs):
+        return lab.usage("run", technique, frame, "-o", lab.unused("ao.exr"), "--preset", "medium", "--repeat", runs)["processors"]
+
+    rounds = [[seconds(frame, 100 + i) - seconds(frame, 20 + i) for frame in frames] for i in ROUNDS]
+    return [statistics.median(times) for times in zip(*rounds)]
+
+
+def with_margins(lab, technique):
+    columns, times = [], []
+    for scene in ("courtyard", "colonnade", "temple", "lounge"):
+        plain, frames = frames_with_margins(lab, scene)
+        truth = lab.truth("ao", plain, 256)
+        columns.append([errors_with_margin(lab, technique, frame, truth) for frame in frames])
+        times.append(times_of_kernels(lab, technique, frames))
+    totals = [sum(of_margin) for of_margin in zip(*times)]
+    return [[*cells, total / totals[0]] for *cells, total in zip(*columns, totals)]
+
+
+def of_errors_and_time(row, column):
+    return RATIO if column == 4 else ERROR
+
+
+@table(PAGE, "A margin around the picture", minutes=5, within=of_errors_and_time)
+def margins_of_evidence(lab):
+    return with_margins(lab, "evidence")
+
+
+@table(PAGE, "A margin around the picture", 2, minutes=4, within=of_errors_and_time)
+def margins_of_gtao(lab):
+    return with_margins(lab, "gtao")

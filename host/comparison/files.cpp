@@ -5,20 +5,11 @@
 #include "base/lists.h"
 #include "exr/holdings.h"
 #include "gloam/error.h"
+#include "gloam/margin.h"
 #include "gloam/option.h"
 
 namespace gloam::comparison {
 namespace {
-
-/// The part of a channel that a window covers.
-Channel crop(const Channel& channel, const Window& from, const Window& to) {
-  Channel out{Layout(to.width(), to.height())};
-  for (int y = 0; y < to.height(); ++y) {
-    const float* source = channel.row(y + to.y0 - from.y0) + (to.x0 - from.x0);
-    std::copy(source, source + to.width(), out.row(y));
-  }
-  return out;
-}
 
 /// The plane of the reference for a plane of the test that the user names.
 std::string counterpart(const std::string& plane, const FrameFile& reference) {
@@ -59,10 +50,7 @@ std::vector<PlanePair> comparable_planes(const FrameFile& test, const FrameFile&
 }
 
 Plane cropped(const Plane& plane, const Window& from, const Window& to) {
-  if (to == Window{} || from == to) return plane.clone();
-  Plane out{plane.name, {}};
-  for (const Channel& channel : plane.channels) out.channels.push_back(crop(channel, from, to));
-  return out;
+  return to == Window{} ? plane.clone() : part_of(plane, from, to);
 }
 
 bool covers(const Frame& frame, const Window& window, const Layout& layout) {

@@ -86,7 +86,8 @@ glm::dvec3 origin_of(const Headers& headers, const std::string& view) {
 struct NewPart {
   Imf::Header header;
   std::vector<WrittenChannel> channels;
-  Window window;
+  Window window;   ///< of the values
+  int height = 0;  ///< rows to write
 };
 
 /// All parts of a file agree in these attributes.
@@ -100,6 +101,7 @@ void share_attributes(const Imf::Header& from, Imf::Header& to) {
 NewPart new_part(const Headers& original, const AddedPlanes& added, const View& view) {
   NewPart part;
   part.window = added.frame->window;
+  part.height = written_window(*added.frame, added.writing).height();
   part.channels = channels_of_view(view, view.origin - origin_of(original, view.name), added.writing);
   part.header = header_of_part(*added.frame, view, part.channels, added.writing);
   share_attributes(original.of_part(0), part.header);
@@ -128,7 +130,7 @@ void write_part(const NewPart& part, Imf::MultiPartOutputFile& file, int number)
     buffer.insert(channel.name, slice_for(copies, channel, part.window));
   Imf::OutputPart output(file, number);
   output.setFrameBuffer(buffer);
-  output.writePixels(part.window.height());
+  output.writePixels(part.height);
 }
 
 /// The parts of the original that the new ones do not replace.

@@ -7,6 +7,7 @@
 #include "base/lists.h"
 #include "exr/view_planes.h"
 #include "gloam/error.h"
+#include "gloam/margin.h"
 #include "gloam/option.h"
 #include "gloam/planes.h"
 
@@ -129,18 +130,6 @@ void add_nothing(View& view, const Layout& layout, const std::vector<std::string
   }
 }
 
-/// The part of a plane that another window shows.
-Plane within_window(const Plane& plane, const Window& from, const Window& to) {
-  Plane placed = empty_plane(plane.name, Layout(to.width(), to.height()));
-  for (size_t c = 0; c < placed.channels.size(); ++c) {
-    for (int y = std::max(from.y0, to.y0); y < std::min(from.y1, to.y1); ++y) {
-      for (int x = std::max(from.x0, to.x0); x < std::min(from.x1, to.x1); ++x)
-        placed.channels[c].at(x - to.x0, y - to.y0) = plane.channels[c].at(x - from.x0, y - from.y0);
-    }
-  }
-  return placed;
-}
-
 }  // namespace
 
 void add_no_history(Frame& frame, const std::vector<std::string>& planes) {
@@ -166,7 +155,7 @@ void add_history(Frame& frame, Frame before, const std::vector<std::string>& pla
       if (!contains(planes, added) || !from.find(source)) continue;
       Plane& plane = view.planes[added] = std::move(from.planes.at(source));
       plane.name = added;
-      if (before.window != frame.window) plane = within_window(plane, before.window, frame.window);
+      if (before.window != frame.window) plane = part_of(plane, before.window, frame.window);
     }
   }
 }

@@ -58,7 +58,7 @@ void write_exr(NewFile& new_file, const std::string& name, const Frame& frame, c
     if (like) take_attributes(*like, header);
     Imf::OutputFile file(stream, header);
     file.setFrameBuffer(buffer);
-    file.writePixels(frame.height());
+    file.writePixels(written_window(frame, options).height());
   }
   stream.finish();
 }

@@ -36,7 +36,7 @@ std::vector<WrittenChannel> channels_of_view(const View& view, const glm::dvec3&
 /// Copies of channels; they must live until the file is written.
 using ChannelCopies = std::list<std::vector<uint32_t>>;
 
-/// The place of a channel's values in memory, for OpenEXR; converted into `copies` if their type differs.
+/// The place of a channel's values in memory, which cover `window`, for OpenEXR, which takes those of the data window; converted into `copies` if their type differs.
 Imf::Slice slice_for(ChannelCopies& copies, const WrittenChannel& written, const Window& window);
 
 }  // namespace gloam

@@ -13,6 +13,7 @@
 
 #include "camera/matrices.h"
 #include "gloam/error.h"
+#include "gloam/margin.h"
 
 namespace gloam {
 namespace {
@@ -84,7 +85,7 @@ bool has_directions(const View& view) { return view.find("normal") || view.find(
 /// Windows, channels and attributes.
 Imf::Header header_without_views(const Frame& frame, const std::vector<WrittenChannel>& channels, bool has_directions,
                                  const WriteOptions& options) {
-  Imf::Header header(inclusive_box(frame.display), inclusive_box(frame.window));
+  Imf::Header header(inclusive_box(frame.display), inclusive_box(written_window(frame, options)));
   header.compression() = compression_of(options.compression);
   header.zipCompressionLevel() = zip_level;
   header.pixelAspectRatio() = float(frame.pixel_aspect);
@@ -107,6 +108,10 @@ std::vector<std::string> compressions() {
   std::vector<std::string> names;
   for (const auto& [name, unused] : known_compressions) names.push_back(name);
   return names;
+}
+
+Window written_window(const Frame& frame, const WriteOptions& options) {
+  return options.keeps_margin ? frame.window : picture_within(frame.window, frame.display);
 }
 
 void check_compression(const std::string& name) { compression_of(name); }

@@ -15,6 +15,9 @@ namespace gloam {
 /// Throws UsageError for a compression that is unknown or loses bits.
 void check_compression(const std::string& name);
 
+/// The pixels that are written: the data window.
+Window written_window(const Frame& frame, const WriteOptions& options);
+
 /// Windows, channels, views, cameras and attributes.
 Imf::Header header_of(const Frame& frame, const std::vector<WrittenChannel>& channels, const WriteOptions& options);
 

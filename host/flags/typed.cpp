@@ -66,6 +66,20 @@ Size parse_size(const std::string& text, const std::string& flag) {
   return {width, height};
 }
 
+Size Overscan::around(const Size& image) const {
+  const auto of = [&](int side) { return pixels + int(std::lround(share * side)); };
+  return {of(image.first), of(image.second)};
+}
+
+Overscan parse_overscan(const std::string& text, const std::string& flag) {
+  const std::string what = flag + " " + text + ": margin";
+  if (text.ends_with("%"))
+    return {.share = parse_number(text.substr(0, text.size() - 1), what, Range<double>{0, 500}) / 100};
+  if (text.ends_with("px"))
+    return {.pixels = parse_number(text.substr(0, text.size() - 2), what, Range<int>{0, 65536})};
+  throw UsageError("{} {} has no unit; write 10% of the size on each side, or 64px", flag, text);
+}
+
 namespace {
 
 struct TimeUnit {

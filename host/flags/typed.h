@@ -49,6 +49,16 @@ using Size = std::pair<int, int>;
 /// "1920x1080": 1 to 65536 each way, and `max_pixels` at most.
 Size parse_size(const std::string& text, const std::string& flag);
 
+/// Pixels around an image: of "10%" that share of its width on the left and the right, and of its height at the top and the bottom; of "64px"
+/// 64 on each side.
+struct Overscan {
+  double share = 0;
+  int pixels = 0;
+  Size around(const Size& image) const;
+};
+/// Always with a unit, since a bare number could be either: 0 % to 500 %, 0 to 65536 px.
+Overscan parse_overscan(const std::string& text, const std::string& flag);
+
 /// Seconds of "90s", "1m", "2m30s", "1h", "20ms" or "500us": above 0, and always with a unit.
 double parse_time(const std::string& text, const std::string& flag);
 

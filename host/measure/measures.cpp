@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gloam/margin.h"
 #include "gloam/radius.h"
 #include "measure/timing.h"
 
@@ -36,13 +37,18 @@ double mean_over(const Image& test, const Image& truth, const Foreground& foregr
 
 Foreground foreground(const Frame& frame, bool first_view_only) {
   Foreground masks;
+  const Window picture = picture_within(frame.window, frame.display);
+  const auto is_shown = [&](int x, int y) {
+    const int at_x = x + frame.window.x0, at_y = y + frame.window.y0;
+    return at_x >= picture.x0 && at_x < picture.x1 && at_y >= picture.y0 && at_y < picture.y1;
+  };
   for (const View& view : frame.views) {
     const Channel& depth = view.planes.at("depth").channels[0];
     if (first_view_only && !masks.empty()) break;
     Mask& mask = masks[view.name];
     mask.reserve(size_t(frame.width()) * size_t(frame.height()));
     for (int y = 0; y < frame.height(); ++y) {
-      for (int x = 0; x < frame.width(); ++x) mask.push_back(!is_background(depth.at(x, y)));
+      for (int x = 0; x < frame.width(); ++x) mask.push_back(is_shown(x, y) && !is_background(depth.at(x, y)));
     }
   }
   return masks;

@@ -14,7 +14,7 @@ namespace gloam::bench {
 using Image = std::map<std::string, Plane>;
 using Foreground = std::map<std::string, Mask>;
 
-/// The foreground of each view, by depth; `first_view_only`: of the first.
+/// The foreground of each view, by depth, without a margin, which no picture shows; `first_view_only`: of the first.
 Foreground foreground(const Frame& frame, bool first_view_only = false);
 
 /// Moves a plane out of every view that has it.

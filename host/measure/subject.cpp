@@ -236,14 +236,32 @@ FrameFile truth_file(const std::string& path) {
   return FrameFile(path, options);
 }
 
+/// A plane in the window of a frame. Beyond its own window it goes on with its last pixels, which no figure counts (`foreground`), but which
+/// those of structure look at beside the border.
+Plane in_window(const Plane& plane, const Window& from, const Window& to) {
+  Plane placed{plane.name, {}};
+  for (const Channel& channel : plane.channels) {
+    Channel& out = placed.channels.emplace_back(Layout(to.width(), to.height()));
+    for (int y = 0; y < to.height(); ++y) {
+      const int row = std::clamp(y + to.y0 - from.y0, 0, from.height() - 1);
+      for (int x = 0; x < to.width(); ++x)
+        out.at(x, y) = channel.at(std::clamp(x + to.x0 - from.x0, 0, from.width() - 1), row);
+    }
+  }
+  return placed;
+}
+
 void add_truth(FrameFile& file, const std::string& plane, const Frame& frame, Truth& result) {
   const std::string path = file.path().string();
   const Frame truth = file.read({plane});
-  if (truth.width() != frame.width() || truth.height() != frame.height())
+  const bool is_one_picture = truth.display == frame.display;  // whatever margin either has
+  if (!is_one_picture && (truth.width() != frame.width() || truth.height() != frame.height()))
     throw Error("{} is {}x{} and the frame is {}x{}; only images of one size can be compared", path, truth.width(),
                 truth.height(), frame.width(), frame.height());
   for (const auto& [name, view] : views_for(truth, file, frame)) {
-    if (!result.image.emplace(name, view->planes.at(plane).clone()).second)
+    const Plane& values = view->planes.at(plane);
+    const bool is_placed = is_one_picture && truth.window != frame.window;
+    if (!result.image.emplace(name, is_placed ? in_window(values, truth.window, frame.window) : values.clone()).second)
       throw Error("{}: is a truth of view '{}', as the one before it; give one for each view", path, name);
   }
   std::optional<double> radius = file.number_attribute(plane + "Radius");

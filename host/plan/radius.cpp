@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gloam/error.h"
+#include "gloam/margin.h"
 #include "gloam/option.h"
 #include "gloam/projection.h"
 
@@ -24,7 +25,11 @@ double rounded_to_two_digits(double value) {
   return std::stod(fmt::format("{:.1e}", std::round(value / unit) * unit));
 }
 
-double longer_side(const Frame& frame) { return std::max(frame.width(), frame.height()); }
+/// Of the picture: a margin has no say in a radius, which would change with it.
+double longer_side(const Frame& frame) {
+  const Window picture = picture_within(frame.window, frame.display);
+  return std::max(picture.width(), picture.height());
+}
 
 const PlannedPass* first_with_radius(const Plan& plan) {
   const auto has_radius = [](const PlannedPass& planned) {
@@ -68,16 +73,19 @@ const char* name_of(RadiusSource source) {
   }
 }
 
-std::optional<double> pixels_at_median_depth(const Frame& frame) {
-  const double all = double(frame.width()) * frame.height() * double(frame.views.size());
+namespace {
+
+/// The same of the surfaces in a part of the frame.
+std::optional<double> pixels_at_median_depth(const Frame& frame, const Window& part) {
+  const double all = double(part.width()) * part.height() * double(frame.views.size());
   const int step = std::max(1, int(std::ceil(std::sqrt(all / samples))));
   std::vector<double> pixels;
   for (const View& view : frame.views) {
     const Plane* depth = view.find("depth");
     if (!depth || !view.camera) continue;
     const Channel& z = depth->channels.front();
-    for (int y = 0; y < frame.height(); y += step) {
-      for (int x = 0; x < frame.width(); x += step) {
+    for (int y = part.y0 - frame.window.y0; y < part.y1 - frame.window.y0; y += step) {
+      for (int x = part.x0 - frame.window.x0; x < part.x1 - frame.window.x0; x += step) {
         if (!is_background(z.at(x, y))) pixels.push_back(pixels_per_unit(*view.camera, z.at(x, y)));
       }
     }
@@ -86,6 +94,14 @@ std::optional<double> pixels_at_median_depth(const Frame& frame) {
   const auto middle = pixels.begin() + std::ptrdiff_t(pixels.size() / 2);
   std::nth_element(pixels.begin(), middle, pixels.end());
   return *middle > 0 && std::isfinite(*middle) ? std::optional(*middle) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<double> pixels_at_median_depth(const Frame& frame) {
+  const Window picture = picture_within(frame.window, frame.display);
+  const std::optional<double> pixels = pixels_at_median_depth(frame, picture);
+  return pixels || picture == frame.window ? pixels : pixels_at_median_depth(frame, frame.window);
 }
 
 std::optional<double> radius_made_from(const Frame& frame) {

@@ -61,7 +61,8 @@ inline constexpr const char* frame_help =
 
 frame["depth"] is an array that cannot be written to: (height, width), in place, or (height, width, components), a copy. Of several views it is a
 list of arrays, in the order of `views`. `planes` has the names, `notes` what was assumed, `attributes` and `numbers` what a file says of how
-its planes were made. Depth is in scene units, +inf on background; normals are unit, in view space.)";
+its planes were made. `picture` cuts an array to the display window, frame["depth"][frame.picture]: arrays of a frame that was rendered with a
+margin, and of what is computed on it, have the margin too. Depth is in scene units, +inf on background; normals are unit, in view space.)";
 
 inline constexpr const char* devices_help =
     R"(All devices of all platforms of OpenCL, a list of gloam.DeviceInfo. Opens none.

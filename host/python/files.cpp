@@ -6,6 +6,7 @@
 #include "base/words.h"
 #include "exr/holdings.h"
 #include "gloam/color_holds.h"
+#include "gloam/margin.h"
 #include "gloam/planes.h"
 #include "python/frames.h"
 #include "python/interrupts.h"
@@ -63,12 +64,15 @@ Frame joined(const HeldFrame* frame, HeldFrame* more, const std::vector<std::str
 /// `more`: planes that go into the file, besides those of the frame that are `carried`; none: all of the frame's planes do.
 void write(const std::string& path, const HeldFrame* frame, HeldFrame* more, const std::vector<std::string>& carried,
            const std::map<std::string, std::string>& attributes, const std::map<std::string, double>& numbers,
-           const std::string& compression, bool half) {
+           const std::string& compression, bool half, bool keeps_margin) {
   if (std::filesystem::path(path).extension() != ".exr")
     throw UsageError("write {}: a frame is an EXR file, or a picture of a plane; name it with .exr or .png", path);
   if (const std::string why = why_unwritable(path); !why.empty()) throw Error("{}: cannot be written, {}", path, why);
-  const WriteOptions options{
-      .half = half, .compression = compression, .half_planes = {}, .shows_result = more != nullptr};
+  const WriteOptions options{.half = half,
+                             .compression = compression,
+                             .half_planes = {},
+                             .shows_result = more != nullptr,
+                             .keeps_margin = keeps_margin};
   check(options);
   without_lock([&](Interrupts&) {
     Frame whole = joined(frame, more, carried);
@@ -82,7 +86,7 @@ void write(const std::string& path, const HeldFrame* frame, HeldFrame* more, con
 void write_image(const std::string& path, HeldFrame& image, const std::optional<std::vector<Camera>>& cameras,
                  const std::string& compression, bool half) {
   for (size_t i = 0; cameras && i < cameras->size(); ++i) image.frame.views[i].camera = (*cameras)[i];
-  write(path, &image, nullptr, {}, {}, {}, compression, half);
+  write(path, &image, nullptr, {}, {}, {}, compression, half, true);
 }
 
 }  // namespace
@@ -119,6 +123,9 @@ void add_files(py::module_& module) {
   module.def("read_for", &read_for);
   module.def("write", &write);
   module.def("write_image", &write_image);
+  module.def("notes_on_margin", [](const HeldFrame& held, bool is_kept) {
+    return texts_of(notes_on_margin(held.frame, is_kept, is_kept));
+  });
 }
 
 }  // namespace gloam::python

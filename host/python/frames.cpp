@@ -5,6 +5,7 @@
 
 #include "base/lists.h"
 #include "gloam/arrays.h"
+#include "gloam/margin.h"
 #include "gloam/normalise.h"
 #include "gloam/planes.h"
 #include "gloam/technique.h"
@@ -153,6 +154,14 @@ py::object plane_as_array(const SharedFrame& held, const std::string& name) {
   return of_views(held->frame, [&](const View& view) { return read_only_array(plane_of(*held, view, name), owner); });
 }
 
+/// Slices of rows and columns.
+py::tuple picture_of(const Frame& frame) {
+  const Window picture = picture_within(frame.window, frame.display);
+  const auto slice = [](int from, int to) { return py::slice(from, to, 1); };
+  return py::make_tuple(slice(picture.y0 - frame.window.y0, picture.y1 - frame.window.y0),
+                        slice(picture.x0 - frame.window.x0, picture.x1 - frame.window.x0));
+}
+
 std::string frame_in_words(const HeldFrame& held) {
   std::string words =
       fmt::format("<gloam.Frame {}{} x {} pixels: {}", held.name.empty() ? "" : "'" + printable(held.name) + "', ",
@@ -184,6 +193,7 @@ void add_frames(py::module_& module) {
   py::class_<HeldFrame, SharedFrame>(module, "Frame", frame_help)
       .def_property_readonly("width", [](const HeldFrame& self) { return self.frame.width(); })
       .def_property_readonly("height", [](const HeldFrame& self) { return self.frame.height(); })
+      .def_property_readonly("picture", [](const HeldFrame& self) { return picture_of(self.frame); })
       .def_property_readonly("name", [](const HeldFrame& self) { return text_of(self.name); })
       .def_property_readonly("views", [](const HeldFrame& self) { return texts_of(view_names(self.frame)); })
       .def_property_readonly("planes", [](const HeldFrame& self) { return common_planes(self.frame); })

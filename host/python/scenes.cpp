@@ -3,6 +3,8 @@
 #include <cmath>
 #include <filesystem>
 #include <mutex>
+#include <tuple>
+#include <utility>
 
 #include "base/lists.h"
 #include "base/words.h"
@@ -86,6 +88,7 @@ CaptureOptions options_from(const py::dict& words) {
   CaptureOptions options;
   options.width = py::cast<int>(words["width"]);
   options.height = py::cast<int>(words["height"]);
+  std::tie(options.margin_x, options.margin_y) = py::cast<std::pair<int, int>>(words["margin"]);
   options.planes =
       words["planes"].is_none() ? usual_capture_planes() : py::cast<std::vector<std::string>>(words["planes"]);
   options.peel = py::cast<int>(words["peel"]);

@@ -189,7 +189,8 @@ py::tuple write_over(const SharedSequence& sequence, const py::dict& words, cons
                       .writing = {.half = py::cast<bool>(writing["half"]),
                                   .compression = py::cast<std::string>(writing["compression"]),
                                   .half_planes = {},
-                                  .shows_result = true},
+                                  .shows_result = true,
+                                  .keeps_margin = py::cast<bool>(writing["keep_margin"])},
                       .keeps_depth = py::cast<bool>(writing["keep_depth"]),
                       .resumes = py::cast<bool>(writing["resume"])};
   request.computing.temporal = py::cast<bool>(writing["temporal"]);

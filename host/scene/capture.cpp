@@ -15,6 +15,7 @@
 #include "base/lists.h"
 #include "gloam/color_holds.h"
 #include "gloam/error.h"
+#include "gloam/margin.h"
 #include "gloam/planes.h"
 #include "gloam/projection.h"
 #include "gloam/scene/camera_ray.h"
@@ -30,7 +31,7 @@ namespace {
 /// Counts the outlines that contain the visible surfaces of one view.
 class OutlineCounter {
  public:
-  OutlineCounter(const Outlines* outlines, const Camera& camera, const CaptureTarget& target);
+  OutlineCounter(const Outlines* outlines, const Camera& camera, const Window& window, const CaptureTarget& target);
 
   /// Counts for a row whose depths are filled.
   void row(int y) const;
@@ -38,12 +39,14 @@ class OutlineCounter {
  private:
   const Outlines* outlines_;
   const Camera& camera_;
+  Window window_;
   const CaptureTarget& target_;
   std::optional<int> at_eye_;
 };
 
-OutlineCounter::OutlineCounter(const Outlines* outlines, const Camera& camera, const CaptureTarget& target)
-    : outlines_(outlines), camera_(camera), target_(target) {
+OutlineCounter::OutlineCounter(const Outlines* outlines, const Camera& camera, const Window& window,
+                               const CaptureTarget& target)
+    : outlines_(outlines), camera_(camera), window_(window), target_(target) {
   if (!outlines_ || camera.orthographic || camera.slits) return;
   at_eye_ = outlines_->around(camera.pose->position - outlines_->scene().origin);
 }
@@ -51,9 +54,10 @@ OutlineCounter::OutlineCounter(const Outlines* outlines, const Camera& camera, c
 void OutlineCounter::row(int y) const {
   if (!outlines_) return;
   for (int x = 0; x < target_.depth->layout().width; ++x) {
-    if (!shows(camera_, x, y)) continue;
+    const int px = x + window_.x0, py = y + window_.y0;
+    if (!shows(camera_, px, py)) continue;
     // From the eye on, whatever the near plane hides: an outline before that plane contains the eye too.
-    TracerRay ray = camera_ray(camera_, outlines_->scene().origin, x + 0.5, y + 0.5);
+    TracerRay ray = camera_ray(camera_, outlines_->scene().origin, px + 0.5, py + 0.5);
     const float depth = target_.depth->at(x, y);
     ray.far = is_background(depth) ? far_of(camera_) : double(depth);
     // Each orthographic ray has its own start; most starts have nothing behind them.
@@ -128,7 +132,12 @@ bool is_same(const Camera& a, const Camera& b) {
          a.pose->world_to_view == b.pose->world_to_view;
 }
 
-/// Captures the rows of one view.
+/// The pixels of a capture, in which the picture begins at (0, 0).
+Window window_of(const CaptureOptions& options) {
+  return {-options.margin_x, -options.margin_y, options.width + options.margin_x, options.height + options.margin_y};
+}
+
+/// Captures the rows of one view. Pixels (x, y) of the planes are (x + window.x0, y + window.y0) of the picture.
 class Capturer {
  public:
   Capturer(const Tracer& tracer, const CaptureView& view, const CaptureTarget& target, const CaptureOptions& options)
@@ -136,17 +145,19 @@ class Capturer {
         view_(view),
         target_(target),
         before_(options.previous_scene),
-        stochastic_(options.stochastic, target.stochastic),
-        outlines_(options.outlines, view.camera, target) {
+        window_(window_of(options)),
+        width_(options.width),
+        stochastic_(options.stochastic, window_, target.stochastic),
+        outlines_(options.outlines, view.camera, window_, target) {
     stands_still_ = view.previous_camera && is_same(view.camera, *view.previous_camera);
     needs_all_ = target.back_depth || target.peel_count || stochastic_.is_wanted();
   }
 
-  PartSeconds row(int y, int width) const {
+  PartSeconds row(int y) const {
     std::vector<Surface> surfaces;
     RowDepths depths;
-    for (int x = 0; x < width; ++x) {
-      pixel(x, y, uint32_t(y * width + x), surfaces);
+    for (int x = 0; x < window_.width(); ++x) {
+      pixel(x, y, surfaces);
       if (!stochastic_.is_wanted()) continue;
       for (const Surface& surface : surfaces) depths.depths.push_back(float(surface.distance));
       depths.ends.push_back(depths.depths.size());
@@ -162,10 +173,12 @@ class Capturer {
   }
 
  private:
-  void pixel(int x, int y, uint32_t seed, std::vector<Surface>& surfaces) const {
+  void pixel(int x, int y, std::vector<Surface>& surfaces) const {
     surfaces.clear();
-    if (!shows(view_.camera, x, y)) return;
-    TracerRay ray = camera_ray(view_.camera, tracer_.scene().origin, x + 0.5, y + 0.5);
+    const int px = x + window_.x0, py = y + window_.y0;
+    if (!shows(view_.camera, px, py)) return;
+    const auto seed = uint32_t(py * width_ + px);  // the same with any margin
+    TracerRay ray = camera_ray(view_.camera, tracer_.scene().origin, px + 0.5, py + 0.5);
     ray.near = view_.camera.near.value_or(0);
     ray.far = far_of(view_.camera);
     if (needs_all_) {
@@ -239,13 +252,15 @@ class Capturer {
     if (stands_still_ && earlier == now)
       return put(target_.motion, x, y, glm::dvec2(0));  // without the rounding of a projection
     const std::optional<glm::dvec2> before = pixel_of_world(*view_.previous_camera, earlier, w);
-    if (before) put(target_.motion, x, y, *before - glm::dvec2(x + 0.5, y + 0.5));
+    if (before) put(target_.motion, x, y, *before - glm::dvec2(x + window_.x0 + 0.5, y + window_.y0 + 0.5));
   }
 
   const Tracer& tracer_;
   const CaptureView& view_;
   const CaptureTarget& target_;
   const Scene* before_;
+  Window window_;
+  int width_;  ///< of the picture
   StochasticMap stochastic_;
   OutlineCounter outlines_;
   bool needs_all_, stands_still_;
@@ -261,17 +276,18 @@ int thread_count() {
 
 /// Captures all rows of a view on all threads. Returns the seconds of the parts as a mean over the threads.
 PartSeconds capture_rows(const Capturer& capturer, const CaptureOptions& options, int rows_before) {
-  const int rows = options.height * int(options.views.size() + (options.second_view ? 1 : 0));
+  const int height = window_of(options).height();
+  const int rows = height * int(options.views.size() + (options.second_view ? 1 : 0));
   int done = rows_before;
   PartSeconds sum;
   std::atomic<bool> failed = false;
   std::mutex mutex;
   std::exception_ptr failure;  // an exception may not leave a parallel loop
 #pragma omp parallel for schedule(dynamic, 4)
-  for (int y = 0; y < options.height; ++y) {
+  for (int y = 0; y < height; ++y) {
     try {
       if (failed) continue;
-      const PartSeconds seconds = capturer.row(y, options.width);
+      const PartSeconds seconds = capturer.row(y);
       const std::lock_guard<std::mutex> lock(mutex);
       sum.stochastic += seconds.stochastic;
       sum.outlines += seconds.outlines;
@@ -289,26 +305,29 @@ PartSeconds capture_rows(const Capturer& capturer, const CaptureOptions& options
 
 /// Adds a view to the frame.
 void capture_view(const Tracer& tracer, const CaptureView& from, const CaptureOptions& options, CaptureResult& result) {
-  const int rows_before = options.height * int(result.frame.views.size());
+  const Window window = window_of(options);
+  const int rows_before = window.height() * int(result.frame.views.size());
   View& view = result.frame.views.emplace_back();
   view.name = from.name;
   view.camera = from.camera;
   view.origin = from.camera.pose->position;
   const Light& light = tracer.scene().light;
   if (light.sun != vec3(0) && light.to_sun != vec3(0)) view.light = glm::normalize(dvec3(light.to_sun));
-  const CaptureTarget target = capture_target(view, options, Layout(options.width, options.height));
+  const CaptureTarget target = capture_target(view, options, Layout(window.width(), window.height()));
   const PartSeconds seconds = capture_rows(Capturer(tracer, from, target, options), options, rows_before);
   result.stochastic_seconds += seconds.stochastic;
   result.outline_seconds += seconds.outlines;
   const bool lit = target.color[0] && tracer.scene().light.sun != vec3(0);
   const long long surfaces = surfaces_in(*target.depth);
   result.surfaces += surfaces;
-  result.rays += (options.outlines ? 2LL : 1LL) * options.width * options.height + (lit ? most_sun_rays * surfaces : 0);
+  result.rays +=
+      (options.outlines ? 2LL : 1LL) * window.width() * window.height() + (lit ? most_sun_rays * surfaces : 0);
 }
 
 /// The second view, from the depths that the first shows.
 CaptureView second_view(const CaptureOptions& options, CaptureResult& result) {
-  result.visible = visible_depths(result.frame.views[0].planes.at("depth").channels[0]);
+  const Frame& frame = result.frame;
+  result.visible = visible_depths(part_of(frame.views[0].planes.at("depth").channels[0], frame.window, frame.display));
   if (!result.visible)
     throw Error("the first view shows nothing that a second could turn about; another camera may see it");
   return {second_view_name, secondary_camera(options.views[0].camera, options.width, options.height, *result.visible,
@@ -361,7 +380,8 @@ CaptureResult capture(const Tracer& tracer, const CaptureOptions& asked) {
   const auto start = std::chrono::steady_clock::now();
   CaptureResult result;
   Frame& frame = result.frame;
-  frame.display = frame.window = {0, 0, options.width, options.height};
+  frame.display = {0, 0, options.width, options.height};
+  frame.window = window_of(options);
   frame.attributes["gloamScene"] = tracer.scene().name;
   if (contains(options.planes, "color")) frame.attributes[color_holds_attribute] = in_words(ColorHolds());
   for (const CaptureView& view : options.views) capture_view(tracer, view, options, result);

@@ -12,6 +12,21 @@
 namespace gloam {
 namespace {
 
+void check_margin(const CaptureOptions& options) {
+  if (options.margin_x < 0 || options.margin_y < 0)
+    throw UsageError("a margin of {} and {} pixels is less than none; give 0 or more", options.margin_x,
+                     options.margin_y);
+  const long long width = options.width + 2LL * options.margin_x, height = options.height + 2LL * options.margin_y;
+  if (width * height > max_pixels)
+    throw UsageError("a capture of {}x{} pixels, with its margin, is too large; at most {} can be made", width, height,
+                     max_pixels);
+  if (options.margin_x + options.margin_y == 0) return;
+  for (const CaptureView& view : options.views)
+    if (view.camera.slits)
+      throw UsageError("the views of a light-field display end where its screen does, and have no margin; leave out {}",
+                       option("overscan"));
+}
+
 void check_stochastic(const StochasticOptions& options) {
   if (options.samples < 0 || options.samples > STOCHASTIC_MOST)
     throw UsageError("a stochastic depth map of {} samples cannot be made; 1 to {} can", options.samples,
@@ -47,6 +62,7 @@ void check_options(const CaptureOptions& options) {
   if (options.width < 1 || options.height < 1)
     throw UsageError("a capture of {}x{} pixels has none; give a size such as 1920x1080", options.width,
                      options.height);
+  check_margin(options);
   if (options.peel < 0 || options.peel > 64) throw UsageError("{} layers cannot be peeled; 0 to 64 can", options.peel);
   if (options.peel_light && options.peel == 0)
     throw UsageError("light of layers is captured with layers; give their number too ({})", option("peel", "8"));

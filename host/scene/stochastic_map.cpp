@@ -24,11 +24,13 @@ void say_stochastic(Frame& frame, const StochasticOptions& options) {
   frame.attributes["gloamStochasticSeed"] = std::to_string(options.seed);
 }
 
-StochasticMap::StochasticMap(const StochasticOptions& options, const std::vector<Channel*>& samples)
+StochasticMap::StochasticMap(const StochasticOptions& options, const Window& window,
+                             const std::vector<Channel*>& samples)
     : alpha_(uint32_t(float(options.alpha) * float(STOCHASTIC_ONE))),
       seed_(uint32_t(options.seed)),
       only_hidden_(options.surfaces == StochasticSurfaces::hidden),
       nearest_first_(options.subset == StochasticSubset::nearest),
+      window_(window),
       samples_(samples) {}
 
 void StochasticMap::row(int y, const RowDepths& row) const {
@@ -55,8 +57,8 @@ void StochasticMap::pixel(int x, int y, const float* begin, const float* end) co
 /// The samples, among those that are `empty`, that a surface is offered to.
 uint32_t StochasticMap::subset(int x, int y, float depth, float nearest, uint32_t empty) const {
   if (nearest_first_) return empty & (~empty + 1);  // the first
-  const uint32_t hash =
-      surface_hash(uint32_t(x), uint32_t(y), seed_, std::bit_cast<uint32_t>(depth), std::bit_cast<uint32_t>(nearest));
+  const uint32_t hash = surface_hash(uint32_t(x + window_.x0), uint32_t(y + window_.y0), seed_,
+                                     std::bit_cast<uint32_t>(depth), std::bit_cast<uint32_t>(nearest));
   return stratified_subset(hash, alpha_, static_cast<unsigned int>(samples_.size())) & empty;
 }
 

@@ -21,7 +21,8 @@ void say_stochastic(Frame& frame, const StochasticOptions& options);
 /// Makes one view's stochastic depth map, with the same bits as kernels/stochastic_depth from the same surfaces.
 class StochasticMap {
  public:
-  StochasticMap(const StochasticOptions& options, const std::vector<Channel*>& samples);
+  /// `window`: of the channels. Random choices go by the pixel's place in the picture, whatever lies around it.
+  StochasticMap(const StochasticOptions& options, const Window& window, const std::vector<Channel*>& samples);
 
   bool is_wanted() const { return !samples_.empty(); }
 
@@ -33,6 +34,7 @@ class StochasticMap {
 
   uint32_t alpha_, seed_;
   bool only_hidden_, nearest_first_;
+  Window window_;
   const std::vector<Channel*>& samples_;
 };
 

@@ -4,6 +4,7 @@
 
 #include "base/lists.h"
 #include "gloam/frame_numbers.h"
+#include "gloam/margin.h"
 #include "gloam/option.h"
 #include "sequence/chunks.h"
 #include "shot/memory.h"
@@ -90,7 +91,9 @@ class AutoStep::Work : public FrameWork {
   void decode() override {
     frame_ = planned_->files.read(planned_->planes);
     if (source_) read_colour(*source_);
+    const bool keeps_margin = step_.settings_.writing.keeps_margin;
     step_.add_notes(turn, frame_.assumed);
+    step_.add_notes(turn, notes_on_margin(frame_, keeps_margin, keeps_margin));
   }
 
   void compute() override {
@@ -116,8 +119,7 @@ class AutoStep::Work : public FrameWork {
     const AutoShotSettings& settings = step_.settings_;
     const int number = turn.frame.number;
     if (settings.output) write_frame(settings.output->path_of(number), result_, settings.writing);
-    if (composite_)
-      write_composite(settings.composite_output->path_of(number), *composite_, settings.writing.compression);
+    if (composite_) write_composite(settings.composite_output->path_of(number), *composite_, settings.writing);
   }
 
  private:

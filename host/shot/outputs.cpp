@@ -80,7 +80,9 @@ std::vector<std::string> write_outputs(const FrameOutputs& outputs, OutputSource
     if (settings.names_frame) name_frame(result, sources.file, outputs.out);
     write_frame(outputs.out, result, settings.out);
   }
-  const WriteOptions as_colour{false, settings.out.compression, sources.half_planes};
+  const WriteOptions as_colour{.compression = settings.out.compression,
+                               .half_planes = sources.half_planes,
+                               .keeps_margin = settings.copy.keeps_margin};
   if (outputs.has_composite()) make_composite(sources, result, settings);
   if (!outputs.composite.empty())
     write_frame_like(outputs.composite, sources.file, sources.part, sources.colour, as_colour);

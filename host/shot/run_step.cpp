@@ -3,6 +3,7 @@
 #include "base/lists.h"
 #include "gloam/compute.h"
 #include "gloam/error.h"
+#include "gloam/margin.h"
 #include "gloam/planes.h"
 #include "gloam/provenance.h"
 
@@ -67,6 +68,8 @@ class RunStep::Work : public FrameWork {
     sources_ = read_sources(planned);
     std::vector<std::string> notes = frame_.assumed;
     add_new(notes, sources_.notes);
+    const bool keeps_margin = step_.settings_.writing.out.keeps_margin;
+    add_new(notes, notes_on_margin(frame_, keeps_margin, keeps_margin));
     const std::optional<Radius> radius = settle(planned, frame_, notes);
     step_.notes_.add(turn.frame, notes);
     if (turn.index == 0) add_warnings(radius, planned.plan, frame_, step_.events_);

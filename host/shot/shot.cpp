@@ -74,8 +74,9 @@ std::string settings_in_words(const ShotRequest& request) {
       asked.resolution, asked.temporal, int(reading.depth), int(reading.normals.space), int(reading.normals.range),
       reading.as_stored, int(options.math), int(options.real), options.lanes, options.seed);
   const WriteOptions& writing = request.writing;
-  return words + fmt::format(" half={},{} compression={} keeps_depth={}", writing.half,
-                             fmt::join(writing.half_planes, ","), writing.compression, request.keeps_depth);
+  return words + fmt::format(" half={},{} compression={} keeps_depth={} keeps_margin={}", writing.half,
+                             fmt::join(writing.half_planes, ","), writing.compression, request.keeps_depth,
+                             writing.keeps_margin);
 }
 
 /// Throws UsageError for an output that is an input. The command has a ledger of files for that (base/file_ledger.h).

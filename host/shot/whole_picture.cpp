@@ -93,9 +93,10 @@ Composite make_composite(CompositeSource& source, const Frame& computed) {
   return composite;
 }
 
-void write_composite(const std::string& path, const Composite& composite, const std::string& compression) {
-  write_frame_like(path, composite.like, composite.part, composite.picture,
-                   {false, compression, composite.half_planes});
+void write_composite(const std::string& path, const Composite& composite, const WriteOptions& writing) {
+  write_frame_like(
+      path, composite.like, composite.part, composite.picture,
+      {.compression = writing.compression, .half_planes = composite.half_planes, .keeps_margin = writing.keeps_margin});
 }
 
 }  // namespace gloam

@@ -55,6 +55,7 @@ void read_colour(CompositeSource& source);
 
 /// Takes the colour that was read. `computed`: the planes of the effects, and how they were made.
 Composite make_composite(CompositeSource& source, const Frame& computed);
-void write_composite(const std::string& path, const Composite& composite, const std::string& compression);
+/// `writing`: its compression and its margin.
+void write_composite(const std::string& path, const Composite& composite, const WriteOptions& writing);
 
 }  // namespace gloam

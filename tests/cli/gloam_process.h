@@ -16,6 +16,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gloam/exr.h"
@@ -43,6 +44,18 @@ inline std::string slurp(const fs::path& path) {
   std::stringstream text;
   text << stream.rdbuf();
   return text.str();
+}
+
+/// Width and height from a PNG's header.
+inline std::pair<int, int> png_size(const fs::path& path) {
+  const std::string bytes = slurp(path);
+  EXPECT_EQ(bytes.substr(0, 4), "\x89PNG");
+  const auto number = [&](size_t at) {
+    int n = 0;
+    for (size_t i = 0; i < 4; ++i) n = n * 256 + static_cast<unsigned char>(bytes.at(at + i));
+    return n;
+  };
+  return {number(16), number(20)};
 }
 
 /// Limits on a run: memory beyond is refused, and the run is ended after this many seconds.

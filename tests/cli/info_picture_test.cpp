@@ -4,18 +4,6 @@
 namespace gloam::test::info_picture_test {
 namespace {
 
-/// Width and height from a PNG's header.
-std::pair<int, int> png_size(const fs::path& path) {
-  const std::string bytes = slurp(path);
-  EXPECT_EQ(bytes.substr(0, 4), "\x89PNG");
-  const auto number = [&](size_t at) {
-    int n = 0;
-    for (size_t i = 0; i < 4; ++i) n = n * 256 + static_cast<unsigned char>(bytes.at(at + i));
-    return n;
-  };
-  return {number(16), number(20)};
-}
-
 TEST_F(Cli, InfoDrawsAllPlanes) {
   const Result plain = gloam({"info", loggia});
   const Result result = gloam({"info", loggia, "--picture", path("planes.png")});

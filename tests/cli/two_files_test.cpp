@@ -265,7 +265,7 @@ TEST_F(TwoFiles, TheFrameCoversTheDataOfBoth) {
   large.window = {-2, -3, 34, 27};
   write_frame(path("a_L.exr"), small);
   write_frame(path("a_R.exr"), large);
-  ASSERT_EQ(run("hbao+", {file("a_L.exr"), file("a_R.exr")}, "out.exr").status, 0);
+  ASSERT_EQ(run("hbao+", {file("a_L.exr"), file("a_R.exr"), "--keep-margin"}, "out.exr").status, 0);
   FrameFile out(path("out.exr"), {});
   EXPECT_EQ(out.window(), (Window{-2, -3, 34, 27}));
   EXPECT_EQ(out.display(), (Window{0, 0, 32, 24}));

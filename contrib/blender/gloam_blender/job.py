@@ -247,7 +247,8 @@ def notes_in(text):
     notes = []
     for part in [text] if text.lstrip().startswith("{\n") else text.splitlines():
         try:
-            notes += [note for note in json.loads(part).get("notes", []) if note not in notes]
+            # That the margin is not written is what overscan is for.
+            notes += [note for note in json.loads(part).get("notes", []) if note not in notes and not note.startswith("margin: ")]
         except ValueError:
             pass
     return notes

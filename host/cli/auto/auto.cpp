@@ -13,6 +13,7 @@
 #include "cli/flags/time_budget.h"
 #include "cli/shot/shot.h"
 #include "gloam/error.h"
+#include "gloam/margin.h"
 #include "gloam/visualise.h"
 #include "shot/auto_step.h"
 #include "shot/outputs.h"
@@ -24,7 +25,7 @@ void run_on_one_frame(const AutoCommand& flags) {
   RunOptions options = flags.run_flags.run_options();
   // Times to compare must not include what a device does only once.
   if (flags.measure) options.repeat = std::max(options.repeat, 3);
-  const WriteOptions writing{!flags.shot.as_float, flags.compression, {}, true};
+  const WriteOptions writing{!flags.shot.as_float, flags.compression, {}, true, flags.shot.keep_margin};
   std::vector<NamedPath> inputs = flags.frame.inputs();
   inputs.emplace_back("--camera", flags.frame_flags.camera);
   check_paths(inputs, {{"-o", flags.out},
@@ -51,6 +52,7 @@ void run_on_one_frame(const AutoCommand& flags) {
   Device device = flags.run_flags.open();
   Frame frame = read_and_judge(planned, asked, purpose);
   note(frame.assumed);
+  note(notes_on_margin(frame, flags.shot.keep_margin, flags.shot.keep_margin));
   check_goal(flags.goal, planned);
   leave_out(source, planned.unfit);
   if (flags.goal && !source) note(notes_on_light);
@@ -81,7 +83,7 @@ void run_on_one_frame(const AutoCommand& flags) {
     const Composite composite = make_composite(*source, result.frame);
     composition = composite.composition;
     note(composition->notes);
-    write_composite(flags.composite.path, composite, flags.compression);
+    write_composite(flags.composite.path, composite, writing);
     written.push_back(flags.composite.path);
   }
   if (!flags.out.empty()) {

@@ -110,7 +110,7 @@ void run_auto_on_shot(const AutoCommand& flags) {
                                           .measuring = progress_bar()},
                             .radius = first.radius.value,
                             .options = flags.run_flags.run_options(),
-                            .writing = {!flags.shot.as_float, flags.compression, {}, true},
+                            .writing = {!flags.shot.as_float, flags.compression, {}, true, flags.shot.keep_margin},
                             .output = flags.out.empty() ? std::nullopt : std::optional(outputs.front().second),
                             .composite = flags.composite.asked(),
                             .keeps_depth = flags.shot.keep_depth,

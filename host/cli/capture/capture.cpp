@@ -14,6 +14,7 @@
 #include "gloam/display_json.h"
 #include "gloam/error.h"
 #include "gloam/light_field.h"
+#include "gloam/margin.h"
 #include "gloam/radius.h"
 #include "gloam/scene/light_field_capture.h"
 #include "gloam/scene/sky_map.h"
@@ -27,7 +28,8 @@ namespace {
 void write_colour(const CaptureShot& shot, const Frame& frame) {
   if (shot.picture.empty()) return;
   for (const View& view : frame.views) {
-    write_picture(picture_path(shot.picture, view.name, frame.views.size() > 1), view.planes.at("color"));
+    write_picture(picture_path(shot.picture, view.name, frame.views.size() > 1),
+                  part_of(view.planes.at("color"), frame.window, frame.display));
   }
 }
 
@@ -88,6 +90,8 @@ void check_flags(const CaptureCommand& flags) {
   check_second_view_flags(flags);
   if (flags.display.empty() && !flags.modules.empty())
     throw UsageError("--modules are for a light-field display; give --display FILE too");
+  if (!flags.display.empty() && flags.overscan)
+    throw UsageError("--overscan: the views of a light-field display end where its screen does; leave it out");
   if (flags.display.empty() && flags.separate)
     throw UsageError("--separate is for the modules of a light-field display; give --display FILE too");
   check_moving_flags(flags);
@@ -125,6 +129,8 @@ CaptureOptions options_of(const CaptureCommand& flags) {
   std::optional<Size> size = flags.size;
   if (!size && !flags.path.empty()) size = stated_size(flags.path);
   if (size) std::tie(options.width, options.height) = *size;
+  if (flags.overscan)
+    std::tie(options.margin_x, options.margin_y) = flags.overscan->around({options.width, options.height});
   options.planes = planes_of(flags);
   options.peel = flags.peel;
   options.peel_light = flags.peel_light;
@@ -212,6 +218,10 @@ void add_capture(CLI::App& app) {
   add_text(*command, "-o,--output", flags->out, "FRAME.exr", "EXR file to write")->required();
   add_parsed(*command, "--size", flags->size, parse_size,
              "of the image; default: that of the file of --camera-path, else 1920x1080", "WxH");
+  add_parsed(*command, "--overscan", flags->overscan, parse_overscan,
+             "margin to render around the image, on each side: a share of its size, 10%, or pixels, 64px; --size stays "
+             "the display window, and occluders in the margin count",
+             "10%|64px");
   add_text(*command, "--planes", flags->planes, "A,B", "these planes and depth only: " + enumerate(capture_planes()));
   add_number(*command, "--peel", flags->peel, {0, 64}, "depth layers to store per pixel, 0 to 64", "N");
   command->add_flag("--peel-light", flags->peel_light,
@@ -266,6 +276,7 @@ void add_capture(CLI::App& app) {
   command->footer(
       "Planes are sampled at pixel centres. Examples:\n"
       "  gloam capture colonnade -o colonnade.exr --size 960x540 --picture colonnade.png\n"
+      "  gloam capture temple -o temple.exr --size 960x540 --overscan 25%\n"
       "  gloam capture statue --faces 500000 -o statue.exr --peel 8\n"
       "  gloam capture fence -o fence.exr --stochastic 4 --view2 30\n"
       "  gloam capture courtyard -o courtyard.exr --outlines 0.5\n"

@@ -16,6 +16,7 @@ struct CaptureCommand {
   std::string out, planes, path, shot, picture, sky, compression = "zip";
   std::string display, modules;
   std::optional<Size> size;
+  std::optional<Overscan> overscan;
   int peel = 0;
   bool peel_light = false;
   std::optional<int> stochastic, stochastic_seed;

@@ -3,6 +3,7 @@
 
 #include "cli/capture/command.h"
 #include "gloam/error.h"
+#include "gloam/margin.h"
 
 namespace gloam::cli {
 namespace {
@@ -71,6 +72,7 @@ Json capture_document(const Scene& scene, const CaptureOptions& options, const C
       {"faces", f.faces},
       {"meshes", f.meshes},
       {"size", {options.width, options.height}},
+      {"margin", {options.margin_x, options.margin_y}},
       {"files", f.files},
       {"layers", layers},
       {"stochastic", stochastic_document(options.stochastic)},
@@ -85,8 +87,9 @@ Json capture_document(const Scene& scene, const CaptureOptions& options, const C
 }
 
 void print_capture(const Scene& scene, const CaptureOptions& options, const CaptureFigures& f) {
-  fmt::print("{}: {} faces in {} meshes, {}x{}\n", printable(scene.name), f.faces, f.meshes, options.width,
-             options.height);
+  const Margin margin = {options.margin_x, options.margin_y, options.margin_x, options.margin_y};
+  fmt::print("{}: {} faces in {} meshes, {}x{}{}\n", printable(scene.name), f.faces, f.meshes, options.width,
+             options.height, margin.any() ? ", and a margin of " + in_words(margin) : "");
   fmt::print("{}{}\n", printable(f.camera),
              f.ao_radius ? fmt::format("; AO radius that suits: {:g} scene units", *f.ao_radius) : "");
   if (options.peel > 0)

@@ -54,7 +54,13 @@ void ShotFlags::add_to(CLI::App& app, bool divides) {
       ->check(accepted_by(parse_memory, "--memory"));
   if (divides) add_chunks(app, *this);
   app.add_flag("--keep-depth", keep_depth, "also write the frame's depth, and of two eyes normals");
+  add_keep_margin(app, keep_margin);
   app.add_flag("--float", as_float, "write AO and the like as float instead of half");
+}
+
+void add_keep_margin(CLI::App& app, bool& keep_margin) {
+  app.add_flag("--keep-margin", keep_margin,
+               "of a frame with a margin: write the whole data window, instead of the display window");
 }
 
 std::string ShotFlags::any() const {

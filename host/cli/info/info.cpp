@@ -17,6 +17,7 @@
 #include "exr/plane_facts.h"
 #include "gloam/error.h"
 #include "gloam/frame_pattern.h"
+#include "gloam/margin.h"
 #include "gloam/planes.h"
 #include "gloam/visualise.h"
 #include "technique/default_technique.h"
@@ -144,7 +145,8 @@ void print_info(const FrameFile& file, const std::vector<PlaneFacts>& facts, con
   const Window display = file.display(), window = file.window();
   fmt::print("{}: {} x {}", printable(file.path().string()), display.width(), display.height());
   if (window != display)
-    fmt::print(", data to {} x {} at ({}, {})", window.width(), window.height(), window.x0, window.y0);
+    fmt::print(", data to {} x {} at ({}, {}), a margin of {}", window.width(), window.height(), window.x0, window.y0,
+               in_words(margin_of(window, display)));
   if (file.views().size() > 1 || !file.views()[0].empty())
     fmt::print(", views {}", printable(fmt::format("{}", fmt::join(file.views(), ", "))));
   fmt::print("\n\n");

@@ -13,6 +13,7 @@ namespace gloam::cli {
 struct ReferenceCommand {
   ReferenceRequest request;
   std::string frame, out, picture, compression = "zip";
+  bool keep_margin = false;
   std::string given;  ///< flags that decide what is written, as text
   int seed = 0;
   bool half = false, resume = false;

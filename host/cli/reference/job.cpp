@@ -3,6 +3,7 @@
 #include "cli/flags/memory.h"
 #include "cli/flags/radius.h"
 #include "gloam/error.h"
+#include "gloam/margin.h"
 #include "scene/falloff.h"
 
 namespace gloam::cli {
@@ -20,6 +21,8 @@ TracedFrame trace_frame(const ReferenceCommand& flags, const ReferenceJob& job, 
   if (contains(job.reads, "color"))
     traced.frame.attributes[color_holds_attribute] = file.text_attribute(color_holds_attribute);
   note(traced.frame.assumed);
+  note(notes_on_margin(traced.frame, flags.keep_margin, flags.keep_margin));
+  if (!flags.keep_margin) leave_out_margin(traced.frame);
   if (job.has_radius) {
     traced.radius = radius_of_truth(job.radius, stated_radius(file), shown, traced.frame);
     options.radius = traced.radius->value;

@@ -174,6 +174,7 @@ void add_reference(CLI::App& app) {
              "N");
   add_text(*command, "--picture", flags->picture, "AO.png", "also as a picture");
   command->add_flag("--half", flags->half, "store as half");
+  add_keep_margin(*command, flags->keep_margin);
   add_compression(*command, flags->compression);
   add_frames(*command, flags->choice);
   add_missing(*command, flags->choice);

@@ -13,6 +13,7 @@
 #include "cli/run/outputs.h"
 #include "gloam/compute.h"
 #include "gloam/error.h"
+#include "gloam/margin.h"
 #include "gloam/planes.h"
 #include "gloam/provenance.h"
 #include "gloam/visualise.h"
@@ -125,14 +126,16 @@ std::string pictured(const Plan& plan) {
 }
 
 /// One picture for each view, of the first output.
-std::vector<std::string> write_pictures(const std::string& path, const Frame& frame, const Frame& input,
+std::vector<std::string> write_pictures(const RunCommand& flags, const Frame& frame, const Frame& input,
                                         const std::string& plane) {
   std::vector<std::string> paths;
-  if (path.empty()) return paths;
+  if (flags.picture.empty()) return paths;
+  const Window shown = flags.shot.keep_margin ? frame.window : picture_within(frame.window, frame.display);
   for (const View& view : frame.views) {
-    paths.push_back(picture_path(path, view.name, frame.views.size() > 1).string());
+    paths.push_back(picture_path(flags.picture, view.name, frame.views.size() > 1).string());
     const Plane* depth = view.find("depth") ? view.find("depth") : input.view(view.name).find("depth");
-    write_picture(paths.back(), *view.find(plane), depth);
+    const Plane shown_depth = depth ? part_of(*depth, frame.window, shown) : Plane();
+    write_picture(paths.back(), part_of(*view.find(plane), frame.window, shown), depth ? &shown_depth : nullptr);
   }
   return paths;
 }
@@ -238,6 +241,8 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   watch.lap("decode");
   note(frame.assumed);
   note(sources.notes);
+  const bool writes_history = writing.out.keeps_margin && !flags.out.empty();
+  note(notes_on_margin(frame, writes_history || flags.shot.keep_margin, flags.shot.keep_margin));
   std::vector<std::string> notes;
   const std::optional<Radius> settled = settle(planned, frame, notes);
   note(notes);
@@ -259,7 +264,7 @@ void run_on_frame(const RunCommand& flags, const PlanRequest& request) {
   carry_over(frame, result.frame, {.depth = carries_depth, .cameras = !flags.bare});
   result.frame.attributes = provenance({{&plan}}, options);
   if (flags.is_out_made) result.frame.attributes[named_by_gloam] = frame_seen_from(flags.frame.frame, flags.out);
-  const std::vector<std::string> pictures = write_pictures(flags.picture, result.frame, frame, pictured(plan));
+  const std::vector<std::string> pictures = write_pictures(flags, result.frame, frame, pictured(plan));
   note(write_outputs(outputs, sources, result.frame, writing));
   watch.lap("write");
   std::vector<std::string> written = paths_of(outputs);

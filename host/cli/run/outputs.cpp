@@ -82,6 +82,8 @@ OutputSettings output_settings(const RunCommand& flags, const PlanRequest& reque
   const bool half = flags.half || !(flags.shot.as_float || is_history);
   OutputSettings settings{{half, flags.compression}, {!flags.shot.as_float, flags.compression}, {}};
   settings.out.shows_result = true;
+  settings.copy.keeps_margin = flags.shot.keep_margin;
+  settings.out.keeps_margin = flags.shot.keep_margin || is_history;
   settings.names_frame =
       !flags.frame.has_pattern() && flags.frame.other_eye.empty() && !flags.frame_flags.changes_depth();
   if (!flags.shot.as_float) settings.copy.half_planes = {"reflection"};

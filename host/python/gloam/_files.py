@@ -81,7 +81,7 @@ def _write_picture(target, what, plane):
     _words.note(_gloam.write_pictures(target, image, _words.text("plane", plane) or listed[0], teller), stacklevel=3)
 
 
-def write(path, what, *, plane=None, camera=None, fov=None, compression="zip", half=False):
+def write(path, what, *, plane=None, camera=None, fov=None, compression="zip", half=False, keep_margin=False):
     """Writes an EXR file, or a picture, PNG, as the command `gloam` does. It is there whole or not at all.
 
     path: of an EXR file; or of a picture, "ao.png", which shows one plane for people: AO and other single components as grey from 0 to 1, normals as
@@ -91,6 +91,7 @@ def write(path, what, *, plane=None, camera=None, fov=None, compression="zip", h
         the names of their planes, (height, width) or (height, width, components), in the layouts and types that gloam.run takes, or lists.
     camera, fov: as for gloam.run, for a dict.
     compression: "zip", "zips", "piz", "rle" or "none", all lossless.  half: AO and other bounded planes as 16-bit floats.
+    keep_margin: of a result for a frame that was rendered with a margin, write the whole data window instead of the display window.
 
     Raises gloam.Error, naming the path, if it cannot be written.
     """
@@ -101,13 +102,16 @@ def write(path, what, *, plane=None, camera=None, fov=None, compression="zip", h
         return
     if plane is not None:
         raise _words.refusal("plane: chooses what a picture shows, and an EXR file has all planes; leave it out, or name a .png")
+    if keep_margin and not isinstance(what, _run.Result):
+        raise _words.refusal("keep_margin: is of results of gloam.run, and all else is written whole; leave it out")
     if _arrays.is_array(what):
         raise _words.refusal("write: an array has no name in an EXR file; give a dict such as {'ao': array}, or name a .png")
     if isinstance(what, Frame):
-        _gloam.write(target, what, None, [], {}, {}, compression, bool(half))
+        _gloam.write(target, what, None, [], {}, {}, compression, bool(half), True)
     elif isinstance(what, _run.Result):
+        _words.note(_gloam.notes_on_margin(what.frame, bool(keep_margin)), stacklevel=2)
         carried = ["depth"] + (["normal"] if len(what.frame.views) == 2 else [])
-        _gloam.write(target, what.frame, image_of_result(what), carried, what.attributes, {}, compression, bool(half))
+        _gloam.write(target, what.frame, image_of_result(what), carried, what.attributes, {}, compression, bool(half), bool(keep_margin))
     elif isinstance(what, dict):
         if not what:
             raise _words.refusal("write: the dict has no array; give one of arrays by the names of their planes")
@@ -184,21 +188,22 @@ class Sequence:
         words, run_words = self._request(technique, settings, keywords, ("temporal", "device", "settings"))
         return Run(self, _gloam.run_over(self._held, self._words, words, bool(temporal), _words.device(device), run_words))
 
-    def write(self, technique, path, *, temporal=False, resume=False, half=True, compression="zip", keep_depth=False, device=None, settings=None,
-              **keywords):
+    def write(self, technique, path, *, temporal=False, resume=False, half=True, compression="zip", keep_depth=False, keep_margin=False, device=None,
+              settings=None, **keywords):
         """Writes a technique's results, a file for each frame, with the pixels that `gloam run` on a shot writes. Returns a gloam.Written.
 
         Frames are decoded, computed and written at the same time. Each file has the technique's first output, or `outputs`, and the camera.
         path: a pattern such as "ao.####.exr".  half: AO as half.  compression: as for gloam.write.  keep_depth: the frame's depth too, and of two
-        eyes the normals.  temporal and the other keywords: as for `run`.
+        eyes the normals.  keep_margin: of frames with a margin the whole data window, instead of the display window.  temporal and the other
+        keywords: as for `run`.
         resume: leaves frames alone that are whole and were made in the same way: by this method, with the same keywords, from the same files.
         After an interruption the same call with resume=True goes on, and gives the files that one undisturbed call gives.
         Raises gloam.Error if frames fail, after the others are written, and where nothing can be written.
         """
-        own = ("temporal", "resume", "half", "compression", "keep_depth", "device", "settings")
+        own = ("temporal", "resume", "half", "compression", "keep_depth", "keep_margin", "device", "settings")
         words, run_words = self._request(technique, settings, keywords, own)
         writing = {"temporal": bool(temporal), "resume": bool(resume), "half": bool(half), "keep_depth": bool(keep_depth),
-                   "compression": _words.word("compression", compression)}
+                   "keep_margin": bool(keep_margin), "compression": _words.word("compression", compression)}
         done, skipped, failed, again, notes, is_disk_full = _gloam.write_over(
             self._held, self._words, words, run_words, _words.device(device), _words.path("path", path), writing)
         radius = "radius: each frame has its own, made from its depths; "

@@ -53,7 +53,7 @@ def scenes():
 
 
 def capture(scene, width=1920, height=1080, planes=None, *, camera=None, eye=None, target=None, fov=None, peel=0, peel_light=False,
-            stochastic=0, stereo=None, convergence=None, **settings):
+            margin=0, stochastic=0, stereo=None, convergence=None, **settings):
     """A G-buffer of a scene, a gloam.Frame of width x height pixels, sampled at pixel centres.
 
     scene: a gloam.Scene, a name of gloam.scenes(), or a path; settings of a built-in scene by keyword.
@@ -62,16 +62,21 @@ def capture(scene, width=1920, height=1080, planes=None, *, camera=None, eye=Non
     camera: the name of one of the scene's cameras, or a gloam.Camera with a pose; or eye and target, points (x, y, z) in scene units; default: the
         scene's first.  fov: horizontal field of view, degrees.
     peel: depth layers to store, 0 to 64.  peel_light: also colour and normal of each layer, for dp-indirect.
-    stochastic: samples of a stochastic depth map, 0 to 16.
+    margin: pixels to render around the picture, on each side, or (left and right, top and bottom): occluders there count, and frame.picture cuts
+        arrays to the picture.  stochastic: samples of a stochastic depth map, 0 to 16.
     stereo: distance of two eyes, scene units, with the camera between them; convergence: their depth without disparity.
     Raises gloam.Error. Ctrl-C ends the call within a moment.
     """
     if camera is not None and not isinstance(camera, Camera):
         camera = _words.text("camera", camera)
     width, height = 1920 if width is None else width, 1080 if height is None else height
+    margin = margin if isinstance(margin, (tuple, list)) else (margin, margin)
+    if len(margin) != 2:
+        raise _words.refusal(f"margin: {len(margin)} numbers are not allowed; give the pixels on each side, or (left and right, top and bottom)")
     words = {"width": _words.integer("width", width), "height": _words.integer("height", height), "planes": _words.names("planes", planes),
              "camera": camera, "eye": _words.point("eye", eye), "target": _words.point("target", target), "fov": _words.number("fov", fov),
              "peel": _words.integer("peel", peel) or 0, "peel_light": bool(peel_light), "stochastic": _words.integer("stochastic", stochastic) or 0,
+             "margin": tuple(_words.integer("margin", pixels) or 0 for pixels in margin),
              "stereo": _words.number("stereo", stereo), "convergence": _words.number("convergence", convergence)}
     frame = _gloam.capture(_scene(scene, settings), words)
     _words.note(frame.notes, stacklevel=2)

@@ -1,6 +1,7 @@
 """The add-on as a user installs it, and its button: blender -b --factory-startup -P addon.py -- ZIP GLOAM FOLDER VERSION"""
 import os
 import re
+import subprocess
 import sys
 
 import bpy
@@ -56,6 +57,20 @@ from gloam_blender import exr_planes  # noqa: E402
 render = (0, 0, scenes.WIDTH, scenes.HEIGHT)
 written = exr_planes.read(os.path.join(folder, "Scene_ao.0001.exr"))
 check("size with overscan", (written.window, written.display) == (render, render) and written.channels["AO"].shape == render[:1:-1], written.window)
+# gloam takes what lies in the margin for occluders, and writes the render.
+rendered = exr_planes.read(os.path.join(folder, "Scene.0001.exr"))
+grown = tuple(round(0.1 * side) for side in render[2:])
+check("frame with overscan", (rendered.display, rendered.window) == (render, (-grown[0], -grown[1], render[2] + grown[0], render[3] + grown[1])), rendered.window)
+by_hand = [os.path.join(folder, f"by_hand{name}.exr") for name in ("", "_whole")]
+for path, flags in zip(by_hand, ([], ["--keep-margin"])):
+    subprocess.run([gloam, "run", "gtao", os.path.join(folder, "Scene.0001.exr"), "-o", path, "--preset", "low", "--radius", "0.5",
+                    "--normal-space", "world", "-q", *flags], check=True, stdout=subprocess.DEVNULL)
+same, whole = map(exr_planes.read, by_hand)
+check("the render is written", (same.window == render, whole.window == rendered.window, (same.channels["AO"] == written.channels["AO"]).all()) == (True, True, True),
+      (same.window, whole.window))
+from gloam_blender import job  # noqa: E402
+
+check("no note on the margin", job.notes_in('{"notes": ["margin: 16 pixels", "radius"]}') == ["radius"])
 groups = [node for node in scene.node_tree.nodes if node.bl_idname == "CompositorNodeGroup"]
 image = bpy.data.images.get("gloam AO Scene")
 check("image", image and tuple(image.size) == (scenes.WIDTH, scenes.HEIGHT), image and image.size[:])

@@ -215,6 +215,8 @@ struct WriteOptions {
   std::vector<std::string> half_planes;  ///< these as half too, whatever they hold
   bool shows_result =
       false;  ///< a result of one value is also luminance, Y, for programs that know no channel of gloam's
+  /// The data window is that of the frame; else the part of it that the display window shows, without the margin (margin.h).
+  bool keeps_margin = true;
 };
 
 /// Names of the lossless compressions that frames can be written with.

@@ -32,7 +32,8 @@ struct Radius {
   std::string name = "radius";  ///< of the parameter
 };
 
-/// Width in pixels of one scene unit at the median depth of the surfaces of all views. None if no view has a depth, a camera and a
+/// Width in pixels of one scene unit at the median depth of the surfaces of all views, in the picture: of a margin only where the picture shows
+/// none. None if no view has a depth, a camera and a
 /// surface.
 std::optional<double> pixels_at_median_depth(const Frame& frame);
 

@@ -47,7 +47,7 @@ struct ShotRequest {
   ReadOptions reading = {};
   PlanRequest computing = {};  ///< `outputs`: one technique. With `temporal` each frame goes on from the one before
   RunOptions options = {};
-  WriteOptions writing = {.half = true, .half_planes = {}};
+  WriteOptions writing = {.half = true, .half_planes = {}, .keeps_margin = false};
   bool keeps_depth = false;       ///< the frame's depth is written too, and of two eyes the normals
   bool resumes = false;           ///< leaves frames alone that are whole and were made in the same way
   unsigned long long memory = 0;  ///< most memory of the process, bytes; 0: what is available

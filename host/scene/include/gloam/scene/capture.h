@@ -30,7 +30,8 @@ const std::vector<std::string>& stochastic_surfaces();
 enum class StochasticSubset { stratified, nearest };
 const std::vector<std::string>& stochastic_subsets();
 
-/// A stochastic depth map (kernels/shared/both/stochastic.h), with the bits that `stochastic-depth` makes with the same choices.
+/// A stochastic depth map (kernels/shared/both/stochastic.h), with the bits that `stochastic-depth` makes with the same choices,
+/// of frames without a margin: it numbers pixels from the picture's first.
 struct StochasticOptions {
   int samples = 0;  ///< depths per pixel, 0 to 16: planes stochastic.00 ...
   /// Of a stratified map: the share of the samples that each surface is offered to, 0 to 1, used as float; and the seed, at least 0, with the
@@ -42,7 +43,8 @@ struct StochasticOptions {
 };
 
 struct CaptureOptions {
-  int width = 1920, height = 1080;
+  int width = 1920, height = 1080;       ///< of the picture: the display window, which the cameras are of
+  int margin_x = 0, margin_y = 0;        ///< pixels around it, on the left and the right, at the top and the bottom
   std::vector<std::string> planes = {};  ///< names of `capture_planes()`; depth is always captured
   int peel = 0;                          ///< depth layers per pixel, 0 to 64: planes peel.00 ... and peel_count
   bool peel_light = false;  ///< also colour and normal of each layer: planes peel_color_r.00 ... peel_normal_z.00 ...
@@ -87,7 +89,7 @@ std::vector<std::string> usual_capture_planes();
 /// gloamConvergence, scene units, gloamToeIn, degrees). Near and far planes of cameras clip.
 /// Throws UsageError for an unknown plane; for a size or a number of layers or samples out of range; for a second view or a pair of
 /// eyes with several views, or both at once; for a second view with motion; for a rig that `stereo_cameras` refuses; for a previous
-/// scene of other meshes. Throws Error for a camera without a pose, and for a second view if the first shows nothing.
+/// scene of other meshes; for a margin around the views of a display. Pixels of the picture are the same with any margin. Throws Error for a camera without a pose, and for a second view if the first shows nothing.
 CaptureResult capture(const Tracer& tracer, const CaptureOptions& options);
 
 }  // namespace gloam
