@@ -258,7 +258,7 @@ def compare(test: Image, reference: Image, *, plane: Optional[str] = None, mask:
 def scenes() -> Dict[str, str]: ...
 def capture(scene: Union[Scene, Path], width: int = 1920, height: int = 1080, planes: Union[str, List[str], None] = None, *,
             camera: Union[Camera, str, None] = None, eye: Optional[Point] = None, target: Optional[Point] = None,
-            fov: Optional[float] = None, peel: int = 0, peel_light: bool = False, margin: int = 0, stochastic: int = 0, stereo: Optional[float] = None,
+            fov: Optional[float] = None, peel: int = 0, peel_light: bool = False, margin: Union[int, Tuple[int, int]] = 0, stochastic: int = 0, stereo: Optional[float] = None,
             convergence: Optional[float] = None, **settings: Setting) -> Frame: ...
 def reference(frame: Union[Frame, Path], scene: Union[Scene, Path, None] = None, *, samples: Optional[int] = None,
               radius: Optional[float] = None, what: str = "ao", falloff: str = "none", bounces: Optional[int] = None,
