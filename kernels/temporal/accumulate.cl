@@ -1,6 +1,6 @@
 // Raw ambient occlusion, or indirect light, as the mean over the frames of a sequence that showed each surface (Yang, Liu, Salvi 2020, sections 3 and 4).
-// What follows filters the mean. In a scene at rest the AO of a surface does not change, so the history counts as it is. Near something
-// that moves it is compared with this frame: where their means over neighbours differ by more than the noise of these means, the history
+// What follows filters the mean. The history counts for as many frames as reproject.cl says. Where these are more than a few, near something
+// that moves, it is compared with this frame: where their means over neighbours differ by more than the noise of these means, the history
 // counts for as many frames as have that error.
 //
 // in : now            raw AO of this frame, 1 = open .. 0 = closed; or its raw light
@@ -8,7 +8,7 @@
 //      before, before_frames, before_count  of reproject.cl
 //      tiles_away     of moving.cl, in tiles
 // out: result         mean over the frames; AO of 1 and light of 0 on background
-//      frames         how many frames that is the mean of; 0 on background
+//      frames         how many frames have shown the surface since it came into view or changed; 0 on background
 // -D TILE (pixels), REACH (tiles), COMPONENTS
 #include "shared/frame/camera.h"
 #include "shared/lanes/components.h"
