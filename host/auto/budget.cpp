@@ -30,7 +30,7 @@ double unsigned_error(const Technique& technique, const EffectOption& option) {
 double pixels_of(const Frame& frame) { return double(frame.width()) * frame.height() * double(frame.views.size()); }
 
 /// Options of all effects that the table does not have are measured on the glance's pixels.
-void fill_speeds(std::vector<BudgetedEffect>& effects, const BudgetMeans& means, EffectSpeeds& speeds) {
+void fill_speeds(std::vector<BudgetedEffect>& effects, const BudgetMeans& means, OptionSpeeds& speeds) {
   std::vector<const EffectOption*> unknown;
   for (const BudgetedEffect& effect : effects)
     for (const EffectOption& option : effect.options)
@@ -53,11 +53,16 @@ void fill_speeds(std::vector<BudgetedEffect>& effects, const BudgetMeans& means,
 /// One round of measuring: what was measured on the frame, and by how much the table was wrong.
 class Spending {
  public:
-  Spending(std::vector<BudgetedEffect>& effects, const BudgetMeans& means, EffectSpeeds& speeds)
-      : effects_(effects), means_(means), speeds_(speeds), times_(effects.size()), corrections_(effects.size(), 1) {}
+  Spending(std::vector<BudgetedEffect>& effects, const BudgetMeans& means, OptionSpeeds& speeds)
+      : effects_(effects),
+        means_(means),
+        speeds_(speeds),
+        looking_ms_(means.glance.ms() + means.probing_ms),
+        times_(effects.size()),
+        corrections_(effects.size(), 1) {}
 
   ChoiceProblem problem() const {
-    ChoiceProblem problem;
+    ChoiceProblem problem{.looking_ms = looking_ms_};
     for (size_t i = 0; i < effects_.size(); ++i) {
       problem.effects.emplace_back();
       for (size_t k = 0; k < effects_[i].options.size(); ++k) {
@@ -143,21 +148,16 @@ class Spending {
 
   std::vector<BudgetedEffect>& effects_;
   const BudgetMeans& means_;
-  EffectSpeeds& speeds_;
+  OptionSpeeds& speeds_;
+  double looking_ms_;
   std::vector<std::map<int, double>> times_;  ///< by effect, measured on the frame
   std::vector<double> corrections_;           ///< by effect: measured over expected
 };
 
-Choice choose_for(const BudgetGoal& goal, const ChoiceProblem& problem, double glance_ms, bool& is_missed) {
-  is_missed = false;
-  if (goal.ms) {
-    if (const auto best = best_within_time(problem, *goal.ms - glance_ms)) return *best;
-    is_missed = true;
-    return figures_of(problem, std::vector<int>(problem.effects.size(), left_out));
-  }
-  if (const auto fastest = fastest_within_error(problem, *goal.error)) return *fastest;
-  is_missed = true;
-  return most_accurate(problem);
+Choice choose_for(const Goal& goal, const ChoiceProblem& problem, bool& is_missed) {
+  const std::optional<Choice> best = best_within(problem, goal);
+  is_missed = !best;
+  return best ? *best : nearest_miss(problem, goal);
 }
 
 void name_cheapest(const std::vector<BudgetedEffect>& effects, const ChoiceProblem& problem, Spent& spent) {
@@ -182,19 +182,18 @@ double change_by(const BudgetedEffect& effect, const Glance& glance) {
 
 }  // namespace
 
-Spent spend(std::vector<BudgetedEffect>& effects, const BudgetGoal& goal, const BudgetMeans& means,
-            EffectSpeeds& speeds) {
+Spent spend(std::vector<BudgetedEffect>& effects, const Goal& goal, const BudgetMeans& means, OptionSpeeds& speeds) {
   for (BudgetedEffect& effect : effects) effect.without = change_by(effect, means.glance);
   fill_speeds(effects, means, speeds);
   Spent spent;
-  spent.glance_ms = means.glance.ms() + means.probing_ms;
   Spending spending(effects, means, speeds);
   Choice choice;
   for (int round = 0; round < most_rounds; ++round) {
-    choice = choose_for(goal, spending.problem(), spent.glance_ms, spent.is_missed);
+    choice = choose_for(goal, spending.problem(), spent.is_missed);
     if (!spending.run_chosen(choice)) break;
   }
   const ChoiceProblem problem = spending.problem();
+  spent.glance_ms = problem.looking_ms;
   spent.expected_error = choice.error;
   name_cheapest(effects, problem, spent);
   const bool any = std::any_of(effects.begin(), effects.end(), [](const auto& e) { return e.chosen != left_out; });

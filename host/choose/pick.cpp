@@ -17,6 +17,7 @@
 #include "measure/effects.h"
 #include "measure/schedule.h"
 #include "measure/similarity.h"
+#include "planner/goal.h"
 
 namespace gloam::bench {
 namespace {
@@ -190,19 +191,16 @@ class Search {
     if (outcome.tried == 0) throw Error("{}: nothing can be measured: {}", subject_.name, picked_.skipped.back().why);
     if (outcome.best) return;
     const std::vector<Contestant>& all = outcome.finalists;
-    if (options_.budget)
-      throw Error("{}ms: nothing is that fast on this frame and device; the fastest is {} with {:.2f} ms",
-                  option("budget", fmt::format("{:g}", *options_.budget)), name_of(all.front().choice.variation),
-                  all.front().choice.ms);
-    const Contestant& nearest =
-        *std::min_element(all.begin(), all.end(),
-                          [&](const Contestant& a, const Contestant& b) { return off(a.choice) < off(b.choice); });
-    throw Error("{}: nothing comes that near to {}; the nearest is {} with {:.4f}",
-                option("error", fmt::format("{:g}", *options_.error)), picked_.truth, name_of(nearest.choice.variation),
-                off(nearest.choice));
+    std::vector<Figures> figures;
+    for (const Contestant& entry : all) figures.push_back(figures_of(entry.choice, options_.by));
+    const size_t nearest = nearest_miss(figures, options_.goal);
+    const std::string name = option_of(all[nearest].choice.variation).label();
+    if (options_.goal.ms)
+      throw Error("{}: nothing is that fast on this frame and device; the fastest is {} with {:.2f} ms",
+                  in_words(options_.goal), name, figures[nearest].ms);
+    throw Error("{}: nothing comes that near to {}; the nearest is {} with {:.4f}", in_words(options_.goal),
+                picked_.truth, name, figures[nearest].error);
   }
-
-  double off(const Choice& choice) const { return error_of(choice, options_.by); }
 
   const Subject& subject_;
   const PickOptions& options_;
@@ -275,15 +273,13 @@ unsigned long long affordable(const std::string& name, unsigned long long bytes)
 
 PickResult pick_setting(const std::string& frame, const PickRequest& request, Device& device) {
   using namespace bench;
-  if (request.budget.has_value() == request.error.has_value())
-    throw UsageError("pick: give either a budget (milliseconds) or an error (such as 0.02)");
+  check_has_goal(request.goal, "pick");
   const PickBy by = value_of(request.by, "by", pick_figures);
   if (by == PickBy::flicker) throw UsageError("by flicker: is of a shot, and {} is one frame", frame);
   std::vector<Skipped> left_out;
   const std::string effect = effect_to_pick(request.truths, request.techniques);
   PickOptions options{.techniques = techniques_to_pick(request.techniques, effect, left_out),
-                      .budget = request.budget,
-                      .error = request.error,
+                      .goal = request.goal,
                       .by = by,
                       .rounds = request.rounds,
                       .progress = request.progress};

@@ -94,7 +94,7 @@ TEST_F(Cli, PickRefusesInOneLine) {
     EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
   };
   expect_refused(pick({}), "--budget");
-  expect_refused(pick({"--budget", "20ms", "--error", "0.1"}), "either");
+  expect_refused(pick({"--budget", "20ms", "--error", "0.1"}), "give one of them");
   expect_refused(pick({"--budget", "3parsecs"}), "3parsecs");
   expect_refused(pick({"--error", "-1"}), "--error");
   expect_refused({"pick", loggia, "--budget", "20ms", "--techniques", "bilateral"}, "filter");

@@ -112,7 +112,7 @@ def test_pick_gives_what_the_command_gives(file, command, tmp_path):
 
 @pytest.mark.parametrize("keywords, words", [
     ({}, "give either"),
-    ({"budget": 20.0, "error": 0.1}, "give either"),
+    ({"budget": 20.0, "error": 0.1}, "give one of them"),
     ({"budget": 0}, "above 0"),
     ({"budget": 20.0, "by": "looks"}, "looks"),
     ({"budget": 20.0, "techniques": ["gtoa"]}, "gtao"),

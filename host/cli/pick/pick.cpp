@@ -19,6 +19,7 @@
 #include "cli/flags/time_budget.h"
 #include "gloam/error.h"
 #include "measure/effects.h"
+#include "planner/goal.h"
 
 namespace gloam::cli {
 namespace {
@@ -29,7 +30,8 @@ struct PickCommand : DeviceFlags {
   std::vector<std::string> truths;
   std::string frame, techniques;
   VariantFlags variant;
-  std::optional<double> budget, error, radius;  ///< budget: milliseconds
+  Goal goal;
+  std::optional<double> radius;
   PickBy by = PickBy::rmse;
   int rays = 256, rounds = 9;
   double time = 60;  ///< seconds
@@ -49,10 +51,8 @@ std::vector<std::string> named_techniques(const PickCommand& flags) {
 
 /// Without techniques.
 PickOptions options_of(const PickCommand& flags) {
-  if (flags.budget.has_value() == flags.error.has_value())
-    throw UsageError("pick: give either --budget (a time, such as 20ms) or --error (such as 0.02)");
-  return {
-      .budget = flags.budget, .error = flags.error, .by = flags.by, .rounds = flags.rounds, .progress = show_status};
+  check_has_goal(flags.goal, "pick");
+  return {.goal = flags.goal, .by = flags.by, .rounds = flags.rounds, .progress = show_status};
 }
 
 std::string run_line(const PickCommand& flags, const Variation& v) {
@@ -223,9 +223,9 @@ void add_pick(CLI::App& app) {
   add_text(*command, "frame", flags->frame, "FRAME.exr", "EXR file")->required();
   add_frames(*command, flags->choice);
   add_missing_without_hold(*command, flags->choice);
-  add_parsed(*command, "--budget", flags->budget, parse_budget, "time for the whole of the effect, its filter included",
-             "20ms");
-  add_number(*command, "--error", flags->error, {0, 1},
+  add_parsed(*command, "--budget", flags->goal.ms, parse_budget,
+             "time for the whole of the effect, its filter included", "20ms");
+  add_number(*command, "--error", flags->goal.error, {0, 1},
              "RMSE to the truth; with --by ssim 1 - SSIM, with --by flip FLIP", "ERROR");
   add_choice(*command, "--by", flags->by, pick_figures,
              "what decides which image is nearer; default rmse; ssim minds noise and lost edges, flip what an eye "

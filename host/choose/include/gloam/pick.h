@@ -8,16 +8,14 @@
 
 #include "gloam/device.h"
 #include "gloam/exr.h"
+#include "gloam/goal.h"
 #include "gloam/radius.h"
 
 namespace gloam {
 
 struct PickRequest {
-  /// Milliseconds on the device, the filter included: the most accurate setting within it is picked.
-  std::optional<double> budget;
-  /// Instead: a bound on the figure that decides; the cheapest setting within it is picked.
-  std::optional<double> error;
-  std::string by = "rmse";              ///< the figure: "rmse" to the truth, "ssim" (1 - SSIM) or "flip"
+  Goal goal;                ///< time on the device, the filter included, or a bound on the figure that decides
+  std::string by = "rmse";  ///< the figure: "rmse" to the truth, "ssim" (1 - SSIM) or "flip"
   std::vector<std::string> techniques;  ///< these only; empty: all that make the truth's effect
   /// Files, one for all views or one each; none: traced where the frame shows a built-in scene, else a converged estimate stands in.
   std::vector<std::string> truths;

@@ -1,4 +1,4 @@
-#include "auto/effect_speeds.h"
+#include "planner/speeds.h"
 
 #include <cmath>
 #include <filesystem>
@@ -20,7 +20,7 @@ fs::path path_of(const DeviceInfo& info) { return path_in_cache("speeds", info);
 
 }  // namespace
 
-EffectSpeeds::EffectSpeeds(const DeviceInfo& info) : info_(info) {
+OptionSpeeds::OptionSpeeds(const DeviceInfo& info) : info_(info) {
   const fs::path path = path_of(info);
   if (path.empty()) return;
   const std::optional<std::string> text = kept_text(path);
@@ -28,8 +28,8 @@ EffectSpeeds::EffectSpeeds(const DeviceInfo& info) : info_(info) {
   try {
     const Json document = ordered_json_of_text(*text, path.string());
     if (document.at("device") != key_of(info) || document.at("kernels") != hash_of_kernels()) return;
-    for (const auto& [settings, ns] : document.at("ns_per_pixel").items())
-      if (ns.is_number() && double(ns) > 0) speeds_[settings] = ns;
+    for (const auto& [label, ns] : document.at("ns_per_pixel").items())
+      if (ns.is_number() && double(ns) > 0) speeds_[label] = ns;
   } catch (const Json::exception&) {
     speeds_.clear();
   } catch (const Error&) {
@@ -37,18 +37,18 @@ EffectSpeeds::EffectSpeeds(const DeviceInfo& info) : info_(info) {
   }
 }
 
-std::optional<double> EffectSpeeds::find(const std::string& settings) const {
-  const auto found = speeds_.find(settings);
+std::optional<double> OptionSpeeds::find(const std::string& label) const {
+  const auto found = speeds_.find(label);
   return found == speeds_.end() ? std::nullopt : std::optional(found->second);
 }
 
-void EffectSpeeds::set(const std::string& settings, double ns_per_pixel) {
+void OptionSpeeds::set(const std::string& label, double ns_per_pixel) {
   if (!(ns_per_pixel > 0) || !std::isfinite(ns_per_pixel)) return;
-  speeds_[settings] = ns_per_pixel;
+  speeds_[label] = ns_per_pixel;
   is_changed_ = true;
 }
 
-void EffectSpeeds::keep() const {
+void OptionSpeeds::keep() const {
   const fs::path path = path_of(info_);
   if (!is_changed_ || path.empty()) return;
   const Json document = {{"device", key_of(info_)}, {"kernels", hash_of_kernels()}, {"ns_per_pixel", speeds_}};
