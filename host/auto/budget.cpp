@@ -173,6 +173,14 @@ void name_cheapest(const std::vector<BudgetedEffect>& effects, const ChoiceProbl
   spent.cheapest_ms = spent.glance_ms + (effects.empty() ? 0 : least);
 }
 
+/// "evidence, medium, half + sssr, low, full"
+std::string label_of(const std::vector<BudgetedEffect>& effects, const std::vector<int>& options) {
+  std::vector<std::string> labels;
+  for (size_t i = 0; i < effects.size(); ++i)
+    if (options[i] != left_out) labels.push_back(effects[i].options[size_t(options[i])].label());
+  return labels.empty() ? "no effect" : fmt::format("{}", fmt::join(labels, " + "));
+}
+
 /// What the picture changes by an effect's planes, by any of its options.
 double change_by(const BudgetedEffect& effect, const Glance& glance) {
   std::vector<std::string> planes;
@@ -195,6 +203,8 @@ Spent spend(std::vector<BudgetedEffect>& effects, const Goal& goal, const Budget
   const ChoiceProblem problem = spending.problem();
   spent.glance_ms = problem.looking_ms;
   spent.expected_error = choice.error;
+  spent.why =
+      why_chosen(problem, choice, goal, [&](const std::vector<int>& options) { return label_of(effects, options); });
   name_cheapest(effects, problem, spent);
   const bool any = std::any_of(effects.begin(), effects.end(), [](const auto& e) { return e.chosen != left_out; });
   if (goal.ms && !any && !effects.empty()) spent.is_missed = true;

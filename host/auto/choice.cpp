@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/reason.h"
+
 namespace gloam {
 namespace {
 
@@ -68,6 +70,15 @@ std::optional<Choice> best_within(const ChoiceProblem& problem, const Goal& goal
 
 Choice nearest_miss(const ChoiceProblem& problem, const Goal& goal) {
   return figures_of(problem, options_of(problem, nearest_miss(figures_of_all(problem), goal)));
+}
+
+std::string why_chosen(const ChoiceProblem& problem, const Choice& choice, const Goal& goal,
+                       const std::function<std::string(const std::vector<int>& options)>& label) {
+  size_t number = 0;
+  for (size_t i = choice.options.size(); i-- > 0;)
+    number = number * (problem.effects[i].size() + 1) + size_t(choice.options[i] + 1);
+  return why_chosen(figures_of_all(problem), number, goal,
+                    {.label = [&](size_t i) { return label(options_of(problem, i)); }, .error = "expected RMSE"});
 }
 
 }  // namespace gloam

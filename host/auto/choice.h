@@ -50,4 +50,8 @@ std::optional<Choice> best_within(const ChoiceProblem& problem, const Goal& goal
 /// The choice that misses the goal least.
 Choice nearest_miss(const ChoiceProblem& problem, const Goal& goal);
 
+/// Why a choice is the one for the goal (`planner/reason.h`). `label`: of the options of a choice.
+std::string why_chosen(const ChoiceProblem& problem, const Choice& choice, const Goal& goal,
+                       const std::function<std::string(const std::vector<int>& options)>& label);
+
 }  // namespace gloam

@@ -80,6 +80,7 @@ nlohmann::ordered_json document_of(const AutoResult& result, const Goal& goal, c
   if (goal.error) document["error_goal"] = *goal.error;
   document["expected_error"] = result.spent->expected_error;
   document["goal_met"] = !result.spent->is_missed;
+  document["why"] = result.spent->why;
   return document;
 }
 

@@ -18,6 +18,7 @@
 #include "measure/schedule.h"
 #include "measure/similarity.h"
 #include "planner/goal.h"
+#include "planner/reason.h"
 
 namespace gloam::bench {
 namespace {
@@ -48,6 +49,7 @@ class Search {
     measure_likeness(outcome.finalists, *outcome.best);
     for (const Contestant& entry : outcome.finalists) picked_.finalists.push_back(entry.choice);
     picked_.best = *outcome.best;
+    picked_.why = why_best(outcome);
     return std::move(picked_);
   }
 
@@ -190,16 +192,26 @@ class Search {
                   option("time"), option("all"));
     if (outcome.tried == 0) throw Error("{}: nothing can be measured: {}", subject_.name, picked_.skipped.back().why);
     if (outcome.best) return;
-    const std::vector<Contestant>& all = outcome.finalists;
+    throw Error("{}", why_none(figures_of_all(outcome.finalists), options_.goal, words_for(outcome.finalists)));
+  }
+
+  /// Among all that were tried; the finalists come first.
+  std::string why_best(const ContestResult& outcome) const {
+    std::vector<Contestant> all = outcome.finalists;
+    all.insert(all.end(), outcome.others.begin(), outcome.others.end());
+    return why_chosen(figures_of_all(all), *outcome.best, options_.goal, words_for(all));
+  }
+
+  std::vector<Figures> figures_of_all(const std::vector<Contestant>& all) const {
     std::vector<Figures> figures;
     for (const Contestant& entry : all) figures.push_back(figures_of(entry.choice, options_.by));
-    const size_t nearest = nearest_miss(figures, options_.goal);
-    const std::string name = option_of(all[nearest].choice.variation).label();
-    if (options_.goal.ms)
-      throw Error("{}: nothing is that fast on this frame and device; the fastest is {} with {:.2f} ms",
-                  in_words(options_.goal), name, figures[nearest].ms);
-    throw Error("{}: nothing comes that near to {}; the nearest is {} with {:.4f}", in_words(options_.goal),
-                picked_.truth, name, figures[nearest].error);
+    return figures;
+  }
+
+  OptionWords words_for(const std::vector<Contestant>& all) const {
+    return {.label = [&all](size_t i) { return option_of(all[i].choice.variation).label(); },
+            .error = name_of_error(options_.by),
+            .truth = picked_.truth};
   }
 
   const Subject& subject_;
@@ -298,6 +310,8 @@ PickResult pick_setting(const std::string& frame, const PickRequest& request, De
         {v.technique->name, v.name(), resolution_of(v), choice.ms, choice.rmse, choice.ssim, choice.flip});
   }
   result.best = picked.best;
+  result.why = picked.why;
+  result.not_tried = not_tried_in_words(picked.left_out, picked.skipped);
   result.error_to = picked.truth;
   result.has_truth = picked.has_truth;
   result.radius = made.subject.radius;

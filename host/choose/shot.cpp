@@ -4,6 +4,7 @@
 
 #include "base/statistics.h"
 #include "gloam/error.h"
+#include "planner/reason.h"
 
 namespace gloam::bench {
 namespace {
@@ -15,24 +16,18 @@ Figures figures_of_row(const SequenceRow& row, PickBy by) {
   return {ms, by == PickBy::ssim ? 1 - row.ssim : row.rmse};
 }
 
-void check_bound(const SequenceRow& best, const PickOptions& options) {
-  const Figures figures = figures_of_row(best, options.by);
-  if (is_within(figures, options.goal)) return;
-  const std::string name = option_of(best.variation).label();
-  if (options.goal.ms)
-    throw Error("no setting takes {:g} ms a frame or less; the fastest is {} with {:.2f} ms", *options.goal.ms, name,
-                figures.ms);
-  throw Error("no setting has {} {:g} or less; the nearest is {} with {:.4f}", name_of_error(options.by),
-              *options.goal.error, name, figures.error);
-}
-
 }  // namespace
 
-void rank(std::vector<SequenceRow>& rows, const PickOptions& options) {
+std::string rank(std::vector<SequenceRow>& rows, const PickOptions& options) {
   std::sort(rows.begin(), rows.end(), [&](const SequenceRow& a, const SequenceRow& b) {
     return ranks_before(figures_of_row(a, options.by), figures_of_row(b, options.by), options.goal);
   });
-  check_bound(rows.front(), options);
+  std::vector<Figures> all;
+  for (const SequenceRow& row : rows) all.push_back(figures_of_row(row, options.by));
+  const OptionWords words{.label = [&](size_t i) { return option_of(rows[i].variation).label(); },
+                          .error = name_of_error(options.by)};
+  if (!is_within(all.front(), options.goal)) throw Error("{}", why_none(all, options.goal, words));
+  return why_chosen(all, 0, options.goal, words);
 }
 
 }  // namespace gloam::bench

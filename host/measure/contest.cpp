@@ -191,8 +191,12 @@ class Contest {
   void keep_finalists() {
     std::vector<Choice> choices;
     for (const Contestant& entry : entries_) choices.push_back(entry.choice);
+    const std::vector<size_t> finalists = finalists_of(choices, options_);
+    const std::set<size_t> are_kept(finalists.begin(), finalists.end());
     std::vector<Contestant> kept;
-    for (const size_t i : finalists_of(choices, options_)) kept.push_back(entries_[i]);
+    for (const size_t i : finalists) kept.push_back(entries_[i]);
+    for (size_t i = 0; i < entries_.size(); ++i)
+      if (are_kept.count(i) == 0) result_.others.push_back(entries_[i]);
     entries_ = std::move(kept);
   }
 
@@ -204,7 +208,10 @@ class Contest {
       return sum;
     };
     // The first are the most likely ones.
-    while (entries_.size() > 2 && !timing.allows(double(enough_readings) * seconds_of_round())) entries_.pop_back();
+    while (entries_.size() > 2 && !timing.allows(double(enough_readings) * seconds_of_round())) {
+      result_.others.push_back(entries_.back());
+      entries_.pop_back();
+    }
     std::vector<Contender> contenders;
     for (Contestant& entry : entries_) {
       contenders.push_back({option_of(entry.choice.variation).label(), [this, &entry] {

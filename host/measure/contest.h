@@ -64,7 +64,8 @@ struct Trials {
 
 struct ContestResult {
   std::vector<Contestant> finalists;  ///< sorted by time, which is the median of the rounds
-  std::optional<size_t> best;         ///< none: nothing is within the bound
+  std::optional<size_t> best;         ///< of the finalists; none: nothing is within the bound
+  std::vector<Contestant> others;     ///< tried, and no finalists
   size_t tried = 0;                   ///< number of settings tried
   /// Settings that were not tried: `why` names a faster one that is too slow already, or says that the time was over. Also those whose
   /// time decides against them, and was over before they were timed often enough.

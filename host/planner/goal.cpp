@@ -10,6 +10,10 @@ std::string in_words(const Goal& goal) {
                  : option("error", fmt::format("{:g}", *goal.error));
 }
 
+std::string bound_in_words(const Goal& goal, const std::string& error) {
+  return goal.ms ? fmt::format("within {:g} ms", *goal.ms) : fmt::format("within {} {:g}", error, *goal.error);
+}
+
 void check_one_goal(const Goal& goal) {
   if (goal.ms && goal.error)
     throw UsageError("{} and {} are both given; give one of them", option("budget"), option("error"));

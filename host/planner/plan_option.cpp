@@ -1,6 +1,6 @@
 #include "planner/plan_option.h"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include "run/run_words.h"
 

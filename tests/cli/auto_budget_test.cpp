@@ -38,6 +38,9 @@ TEST_F(AutoBudget, MuchTimeBuysTheLeastError) {
     EXPECT_LT(chosen["expected_error"], effect_of(document, chosen["effect"])["change"]) << chosen;
   }
   EXPECT_GT(document["expected_error"], 0);
+  const std::string why = document["why"];
+  EXPECT_EQ(why.rfind("the most accurate within 1e+06 ms: evidence", 0), 0u) << why;
+  EXPECT_NE(why.find("; the next faster, "), std::string::npos) << why;
 }
 
 // The planes are those of the settings that it tells.

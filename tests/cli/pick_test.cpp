@@ -34,6 +34,11 @@ TEST_F(Cli, PickWithinABudgetIsTheMostAccurateAndRuns) {
   for (const Json& finalist : document["finalists"]) EXPECT_GE(finalist["rmse"], document["rmse"]);
   EXPECT_EQ(document["technique"], "gtao");  // hbao+ fades occluders, and so is far from the truth (docs/accuracy.md)
   EXPECT_EQ(document["error_to"], "the truth");
+  const std::string why = document["why"];
+  const std::string best =
+      fmt::format("gtao, {}, {}", document["preset"].get<std::string>(), document["resolution"].get<std::string>());
+  EXPECT_EQ(why.rfind("the most accurate within 100000 ms: " + best + " with ", 0), 0u) << why;
+  EXPECT_NE(why.find("; the next faster, "), std::string::npos) << why;
   const fs::path out = folder / "ao.exr";
   ASSERT_EQ(gloam(arguments_of(document["command"], out)).status, 0);
   const Json compared = gloam({"compare", out.string(), loggia_truth, "--json", "-"}).json();
@@ -48,6 +53,22 @@ TEST_F(Cli, PickWithinAnErrorIsTheCheapest) {
       EXPECT_GE(finalist["ms"], document["ms"]);
     }
   }
+}
+
+TEST_F(Cli, PickSaysWhyAndWhatItDidNotTry) {
+  const Result result = gloam({"pick", loggia, "--truth", loggia_truth, "--rounds", "1", "--techniques", "gtao,dp-gtao",
+                               "--time", "1h", "--error", "0.15"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  std::istringstream lines(result.out);
+  int whys = 0, not_tried = 0;
+  for (std::string line; std::getline(lines, line);) {
+    whys += line.rfind("the fastest within RMSE 0.15: gtao, ", 0) == 0;
+    if (line.rfind("not tried: ", 0) != 0) continue;
+    ++not_tried;
+    EXPECT_NE(line.find("settings of dp-gtao, which cannot run here"), std::string::npos) << line;
+  }
+  EXPECT_EQ(whys, 1) << result.out;
+  EXPECT_EQ(not_tried, 1) << result.out;
 }
 
 TEST_F(Cli, PickMeasuresOnTheFirstViewWhatMakesNoOther) {

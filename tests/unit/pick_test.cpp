@@ -107,9 +107,18 @@ TEST_F(PickContest, WhatIsTooSlowByAllItsReadingsRulesHigherPresetsOut) {
   add("hbao", {{2, 0.5}, {5, 0.4}, {9, 0.35}, {20, 0.3}});
   const ContestResult result = hold({.goal = {.ms = 10}}, 60);
   EXPECT_EQ(best_of(result), "hbao, high, full");
+  EXPECT_EQ(result.finalists.size() + result.others.size(), result.tried);
   ASSERT_EQ(result.left_out.size(), 3u);
   for (const Skipped& left_out : result.left_out) EXPECT_EQ(left_out.why, "gtao, low, full takes 40 ms already");
   EXPECT_EQ(readings_.at(0), int(enough_readings));
+}
+
+TEST_F(PickContest, KeepsWhatWasTriedAndIsNoFinalist) {
+  add("gtao", {{40, 0.3}, {80, 0.2}, {160, 0.1}, {320, 0.05}});
+  const ContestResult result = hold({.goal = {.error = 0.2}}, 0);
+  EXPECT_EQ(best_of(result), "gtao, medium, full");
+  ASSERT_EQ(result.others.size(), 1u);  // it is faster, and errs more than is allowed
+  EXPECT_EQ(option_of(result.others[0].choice.variation).label(), "gtao, low, full");
 }
 
 TEST_F(PickContest, TheTimeIsNotExceeded) {

@@ -7,6 +7,7 @@
 #include "planner/figures.h"
 #include "planner/goal.h"
 #include "planner/plan_option.h"
+#include "planner/reason.h"
 
 namespace gloam::test::planner_test {
 namespace {
@@ -45,6 +46,30 @@ TEST(PlannerFigures, ARankingBeginsWithTheBestAndEndsWithTheFarthest) {
   };
   EXPECT_EQ(ranked({.ms = 10}), (std::vector<size_t>{0, 3, 1, 4, 2}));
   EXPECT_EQ(ranked({.error = 0.4}), (std::vector<size_t>{3, 0, 4, 2, 1}));
+}
+
+const OptionWords letters = {.label = [](size_t i) { return std::string(1, char('a' + i)); }};
+
+TEST(PlannerReason, NamesTheChoiceAndTheNextFaster) {
+  EXPECT_EQ(why_chosen(measured, 2, {.ms = 30}, letters),
+            "the most accurate within 30 ms: c with 25.00 ms and RMSE 0.1000; the next faster, a, takes 10.00 ms and "
+            "errs 100 % more");
+  EXPECT_EQ(why_chosen(measured, 0, {.error = 0.3}, letters),
+            "the fastest within RMSE 0.3: a with 10.00 ms and RMSE 0.2000; the next faster, d, takes 4.00 ms and errs "
+            "100 % more");
+  EXPECT_EQ(why_chosen(measured, 3, {.ms = 4}, letters),
+            "the most accurate within 4 ms: d with 4.00 ms and RMSE 0.4000; nothing faster is known");
+  EXPECT_NE(why_chosen({{2, 1}, {1, 1.034}}, 0, {.ms = 2}, letters).find("errs 3.4 % more"), std::string::npos);
+  EXPECT_NE(why_chosen({{2, 0}, {1, 0.5}}, 0, {.ms = 2}, letters).find("has RMSE 0.5000"), std::string::npos);
+  EXPECT_NE(why_chosen(measured, 3, {.ms = 1}, letters).find("nothing is within 1 ms, and nearest to it: d"),
+            std::string::npos);
+}
+
+TEST(PlannerReason, WhereNothingIsWithinTheGoalItNamesTheNearest) {
+  EXPECT_EQ(why_none(measured, {.ms = 1}, letters),
+            "--budget 1ms: nothing is that fast on this device; the fastest is d with 4.00 ms");
+  EXPECT_EQ(why_none(measured, {.error = 0.01}, letters),
+            "--error 0.01: nothing comes that near to the truth; the nearest is c with RMSE 0.1000");
 }
 
 TEST(PlannerGoal, IsOneOfBoth) {

@@ -69,6 +69,7 @@ void print(const AutoResult& result, const Goal& goal) {
   }
   print_table(rows, rows.front().size());
   fmt::print("{}\n", totals_in_words(result, goal));
+  if (result.spent && !result.spent->why.empty()) fmt::print("{}\n", result.spent->why);
 }
 
 }  // namespace gloam::cli

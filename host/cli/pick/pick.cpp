@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <map>
 #include <memory>
 
 #include "base/statistics.h"
@@ -68,19 +67,10 @@ std::string run_line(const PickCommand& flags, const Variation& v) {
   return line + flags.as_text() + reading_text(*flags.app);
 }
 
-/// "medium and high of gtao: low takes 31 ms already; the time was over for 12 settings (--time 5m, --all)".
-void print_left_out(const Picked& picked) {
-  std::map<std::string, std::vector<std::string>> slow;
-  size_t out_of_time = 0;
-  for (const Skipped& s : picked.left_out) {
-    if (s.why == time_was_over)
-      ++out_of_time;
-    else
-      slow[s.why].push_back(s.preset);
-  }
-  for (const auto& [why, presets] : slow) fmt::print("left out {}: {}\n", fmt::join(presets, "; "), printable(why));
-  if (out_of_time > 0)
-    fmt::print("left out {} settings for want of time: --time 5m tries more, --all everything\n", out_of_time);
+/// Why it is that one, and what was not tried.
+void print_why(const std::string& why, const std::string& not_tried) {
+  fmt::print("{}\n", printable(why));
+  if (!not_tried.empty()) fmt::print("{}\n", printable(not_tried));
 }
 
 void print(const Picked& picked, PickBy by, const DeviceInfo& device) {
@@ -97,7 +87,7 @@ void print(const Picked& picked, PickBy by, const DeviceInfo& device) {
   print_table(rows, 4);
   fmt::print("{} of {} settings that were tried; {}; errors to {}; {} decides (--by)\n", picked.finalists.size(),
              picked.tried, printable(device.name), printable(picked.truth), name_of(by));
-  print_left_out(picked);
+  print_why(picked.why, not_tried_in_words(picked.left_out, picked.skipped));
 }
 
 SceneOptions truths_in(const std::filesystem::path& folder, const PickCommand& flags) {
@@ -156,10 +146,11 @@ void pick_shot(const PickCommand& flags, const PickOptions& options, const std::
   measuring.progress = options.progress;
   MeasuredShot shot = measure_own_shot(sequence, measuring, scene, left_out, device, {{"--json", flags.json.file()}});
   std::vector<SequenceRow>& rows = shot.measured.rows;
-  rank(rows, options);
+  const std::string why = rank(rows, options);
   const std::string command = run_line(flags, rows.front().variation);
   Json document = {{"command", command}};
   document.update(entry_of(rows.front()));
+  document["why"] = why;
   document["device"] = device.info().name;
   document["by"] = word_for(options.by, pick_figures);
   document["settings"] = Json::array();
@@ -170,6 +161,7 @@ void pick_shot(const PickCommand& flags, const PickOptions& options, const std::
   flags.json.write(document);
   if (flags.json.only_json()) return;
   print(shot, options, device.info());
+  print_why(why, not_tried_in_words({}, shot.measured.skipped));
   fmt::print("{}\n", printable(command));
 }
 

@@ -19,7 +19,7 @@ class AutoResult(Result):
     effects: a list of dicts, one for each effect, as `gloam auto --json` writes them: "name", "technique", "wanted", "everywhere", "why",
     "share_of_tiles", "runs" (the technique computed, or None), "ms", "ms_everywhere", "ms_masked", "masked", "change" and "lost" (RMS of
     the picture, None where not known) and "refinements".  facts: all that the command writes, a dict, with the effects in it, "classify_ms",
-    "glance_ms", "total_ms", "device", with a goal "chosen", "expected_error" and "goal_met", and the radius.
+    "glance_ms", "total_ms", "device", with a goal "chosen", "expected_error", "goal_met" and "why", and the radius.
     composite: the picture, (height, width, 3), scene-linear, where it was asked for; of several views a list; else None.
     """
 

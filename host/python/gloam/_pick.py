@@ -47,7 +47,7 @@ def pick(frame=None, *, budget=None, error=None, by="rmse", truth=None, techniqu
     rounds: each times every finalist once, in turn.  time: seconds for everything but tracing, the likeliest settings first; None: for all.
     device, camera, fov, depth_is, near, far, background, views, channels, normals_are, normal_space, normal_range, normal_axes: as for gloam.read, of a path.
 
-    The keys are those of `gloam pick --json`: "technique", "preset", "resolution", "ms", "rmse", "ssim", "device", "error_to", "by",
+    The keys are those of `gloam pick --json`: "technique", "preset", "resolution", "ms", "rmse", "ssim", "why" (a sentence), "device", "error_to", "by",
     "finalists" (a list of dicts), "skipped", "left_out", "radius", "radius_from" and "notes".
     Raises gloam.Error that names the nearest miss if nothing is within the bound, gloam.UsageError for names and values.
     """

@@ -51,6 +51,7 @@ struct Spent {
   bool is_missed = false;
   double cheapest_ms = 0;  ///< of the fastest option of any effect, the glance included
   std::string cheapest;    ///< the effect and the option
+  std::string why;         ///< why these options were chosen, in a sentence
 };
 
 /// An effect from its probe to its planes.
@@ -191,7 +192,7 @@ AutoResult compute_effects(AutoPlan& planned, const AutoSettings& settings, cons
 std::string note_on_goal(const Spent& spent, const Goal& goal);
 
 /// JSON as `gloam auto --json` writes it: "effects", "classify_ms", "glance_ms", "total_ms", "device"; with a goal also "chosen",
-/// "budget_ms" or "error_goal", "expected_error" and "goal_met".
+/// "budget_ms" or "error_goal", "expected_error", "goal_met" and "why".
 std::string json_of(const AutoResult& result, const Goal& goal, const DeviceInfo& device);
 
 }  // namespace gloam

@@ -37,6 +37,8 @@ struct PickedSetting {
 struct PickResult {
   std::vector<PickedSetting> finalists;  ///< sorted by time
   size_t best = 0;                       ///< of the finalists
+  std::string why;                       ///< why it is the best, in a sentence
+  std::string not_tried;                 ///< what was not tried, and why, in a sentence; empty: nothing
   std::string error_to;                  ///< what errors are to: "the truth", or its stand-in
   bool has_truth = true;                 ///< it is no stand-in
   Radius radius;                         ///< of all settings
