@@ -28,15 +28,9 @@ struct AutoWords {
   std::optional<std::array<double, 3>> ambient;
 };
 
-std::optional<double> above_0(const py::dict& words, const char* name) {
-  const auto number = py::cast<std::optional<double>>(words[name]);
-  if (number && !(*number > 0)) throw UsageError("{} {:g} is not allowed; a number above 0 is", name, *number);
-  return number;
-}
-
 AutoWords auto_words(const py::dict& words) {
   AutoWords asked;
-  asked.goal = {above_0(words, "budget"), above_0(words, "error")};
+  asked.goal = goal_of(words);
   check_one_goal(asked.goal);
   if (const auto mask = py::cast<std::optional<std::string>>(words["mask"]))
     asked.mask = value_of(*mask, "mask", mask_words);

@@ -43,6 +43,15 @@ TEST_F(AutoBudget, MuchTimeBuysTheLeastError) {
   EXPECT_NE(why.find("; the next faster, "), std::string::npos) << why;
 }
 
+TEST_F(AutoBudget, ATimeMayBeGivenAsFramesPerSecond) {
+  const Result result = automatic({"--budget", "0.001fps"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_DOUBLE_EQ(result.json()["budget_ms"], 1e6);
+  EXPECT_EQ(result.json()["chosen"].size(), 3u);
+  const Result missed = automatic({"--budget", "1000000fps"});
+  EXPECT_NE(missed.err.find("--budget 1000000fps (0.001 ms): nothing fits"), std::string::npos) << missed.err;
+}
+
 // The planes are those of the settings that it tells.
 TEST_F(AutoBudget, WhatItTellsIsWhatItDoes) {
   const Result result = automatic({"--budget", "1000s"});
@@ -118,7 +127,7 @@ TEST_F(AutoBudget, AShotTakesOverWhatTheFirstFrameChooses) {
       gloam({"capture", "gallery", "-o", path("s.####.exr"), "--shot", "walk", "--frames", "1-3", "--size", "96x54"})
           .status,
       0);
-  const Result result = gloam({"auto", path("s.####.exr"), "-o", path("o.####.exr"), "--budget", "1000s", "--radius",
+  const Result result = gloam({"auto", path("s.####.exr"), "-o", path("o.####.exr"), "--budget", "0.001fps", "--radius",
                                "0.5", "--preset", "low", "--resolution", "half", "--float"});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_NE(result.err.find("low, half in all frames, as chosen on the first"), std::string::npos) << result.err;
@@ -154,6 +163,8 @@ TEST_F(AutoBudget, WhatIsWrongIsSaidInOneLine) {
   EXPECT_NE(message({"--budget", "30"}).find("write a number with its unit, such as 30ms"), std::string::npos);
   EXPECT_NE(message({"--budget", "-3ms"}).find("--budget"), std::string::npos);
   EXPECT_NE(message({"--budget", "ms"}).find("--budget"), std::string::npos);
+  EXPECT_NE(message({"--budget", "60Hz"}).find("--budget 60Hz is not allowed; write a number with its unit"),
+            std::string::npos);
   // The frame does not say how much of its colour is ambient light, and has no glossy surfaces.
   ASSERT_EQ(gloam({"capture", "gallery", "-o", path("matte.exr"), "--size", "64x36", "--planes", "normal,color,albedo"})
                 .status,

@@ -122,6 +122,10 @@ TEST_F(Cli, PickRefusesInOneLine) {
   const Result fast = gloam(pick({"--budget", "0.0001ms"}));
   EXPECT_EQ(fast.status, 1);
   EXPECT_NE(fast.err.find("nothing is that fast"), std::string::npos) << fast.err;
+  const Result rate = gloam(pick({"--budget", "1000000fps"}));
+  EXPECT_EQ(rate.status, 1);
+  EXPECT_NE(rate.err.find("--budget 1000000fps (0.001 ms): nothing is that fast"), std::string::npos) << rate.err;
+  expect_refused(pick({"--budget", "fps"}), "such as 60fps");
   const Result near = gloam(pick({"--error", "0.0001"}));
   EXPECT_EQ(near.status, 1);
   EXPECT_NE(near.err.find("nothing comes that near"), std::string::npos) << near.err;

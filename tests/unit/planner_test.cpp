@@ -81,6 +81,17 @@ TEST(PlannerGoal, IsOneOfBoth) {
   EXPECT_NO_THROW(check_has_goal({.ms = 1}, "pick"));
 }
 
+TEST(PlannerGoal, IsATimeOrFramesPerSecond) {
+  EXPECT_DOUBLE_EQ(*time_goal("20ms").ms, 20);
+  EXPECT_DOUBLE_EQ(*time_goal("0.02s").ms, 20);
+  EXPECT_DOUBLE_EQ(*time_goal("60fps").ms, 1000.0 / 60);
+  EXPECT_DOUBLE_EQ(*time_goal("23.976fps").ms, 1000 / 23.976);
+  EXPECT_EQ(in_words(time_goal("60fps")), "--budget 60fps (16.67 ms)");
+  EXPECT_EQ(bound_in_words(time_goal("60fps"), "RMSE"), "within 16.67 ms, for 60fps");
+  for (const char* wrong : {"fps", "0fps", "-60fps", "60 fps", "inffps", "nanfps", "60fps30ms", "60hz", "20", ""})
+    EXPECT_THROW(time_goal(wrong), UsageError) << wrong;
+}
+
 TEST(PlannerOption, IsNamedByTechniquesPresetAndResolution) {
   EXPECT_EQ((PlanOption{{.outputs = {"evidence", "multi-bounce"}, .preset = "low", .resolution = 2}}.label()),
             "evidence + multi-bounce, low, half");

@@ -14,8 +14,8 @@
 #include "choose/shot.h"
 #include "cli/bench/sequence.h"
 #include "cli/bench/subjects.h"
+#include "cli/flags/budget.h"
 #include "cli/flags/shot_flags.h"
-#include "cli/flags/time_budget.h"
 #include "gloam/error.h"
 #include "measure/effects.h"
 #include "planner/goal.h"
@@ -215,8 +215,7 @@ void add_pick(CLI::App& app) {
   add_text(*command, "frame", flags->frame, "FRAME.exr", "EXR file")->required();
   add_frames(*command, flags->choice);
   add_missing_without_hold(*command, flags->choice);
-  add_parsed(*command, "--budget", flags->goal.ms, parse_budget,
-             "time for the whole of the effect, its filter included", "20ms");
+  add_budget(*command, flags->goal, "time for the whole of the effect, its filter included: 20ms, or 60fps");
   add_number(*command, "--error", flags->goal.error, {0, 1},
              "RMSE to the truth; with --by ssim 1 - SSIM, with --by flip FLIP", "ERROR");
   add_choice(*command, "--by", flags->by, pick_figures,
@@ -251,6 +250,7 @@ void add_pick(CLI::App& app) {
       "that is too slow already rules out, and what does not fit in the time.\n"
       "Examples:\n"
       "  gloam pick frame.exr --budget 20ms --truth ao_ref.exr\n"
+      "  gloam pick frame.exr --budget 60fps --truth ao_ref.exr\n"
       "  gloam pick frame.exr --error 0.1 --truth ao_ref.exr --json -\n"
       "  gloam pick 'shot.####.exr' --truth 'truth.####.exr' --frames 1-8 --budget 20ms --by flicker");
   command->callback([flags] { pick_command(*flags); });
