@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "auto/option_times.h"
 #include "base/lists.h"
 #include "base/statistics.h"
 
@@ -15,39 +16,10 @@ namespace {
 /// More rounds than options of one effect are never needed; this bounds a device whose times jump.
 constexpr int most_rounds = 24;
 
-RunResult timed(const Plan& plan, const Frame& frame, const BudgetMeans& means) {
-  RunOptions options = means.options;
-  options.repeat = std::max(3, means.options.repeat);
-  return run(plan, frame, means.device, options);
-}
-
 /// An option's error beside the one of the effect's sign and size, which the glance's losses hold already.
 double unsigned_error(const Technique& technique, const EffectOption& option) {
   const double missing = 1 - 1 / true_per_seen_change(technique);
   return std::sqrt(std::max(0.0, option.relative_error * option.relative_error - missing * missing));
-}
-
-double pixels_of(const Frame& frame) { return double(frame.width()) * frame.height() * double(frame.views.size()); }
-
-/// Options of all effects that the table does not have are measured on the glance's pixels.
-void fill_speeds(std::vector<BudgetedEffect>& effects, const BudgetMeans& means, OptionSpeeds& speeds) {
-  std::vector<const EffectOption*> unknown;
-  for (const BudgetedEffect& effect : effects)
-    for (const EffectOption& option : effect.options)
-      if (!speeds.find(option.label())) unknown.push_back(&option);
-  const Frame& small = means.glance.small();
-  for (size_t i = 0; i < unknown.size(); ++i) {
-    if (means.measuring) means.measuring(int(i), int(unknown.size()));
-    const Plan plan = make_plan(unknown[i]->request, means.available, means.holds);
-    speeds.set(unknown[i]->label(), 1e6 * median(timed(plan, small, means).total_ms) / pixels_of(small));
-  }
-  if (means.measuring && !unknown.empty()) means.measuring(int(unknown.size()), int(unknown.size()));
-  const double pixels = pixels_of(means.frame);
-  for (BudgetedEffect& effect : effects) {
-    effect.expected_ms.clear();
-    for (const EffectOption& option : effect.options)
-      effect.expected_ms.push_back(speeds.find(option.label()).value_or(1) * pixels / 1e6);
-  }
 }
 
 /// One round of measuring: what was measured on the frame, and by how much the table was wrong.
@@ -128,7 +100,7 @@ class Spending {
     RunResult result = timed(plan, means_.frame, means_);
     const double everywhere = median(result.total_ms);
     take(effect, std::move(plan), std::move(result), false);
-    speeds_.set(option.label(), 1e6 * everywhere / pixels_of(means_.frame));
+    speeds_.add(option.label(), size_of(means_.frame), everywhere);
     corrections_[i] = everywhere / std::max(effect.expected_ms[size_t(effect.chosen)], 1e-6);
     if (!effect.mask.empty()) try_mask(effect, option);
     // The slower of two times is kept, so that noise does not make a choice go round in circles.
@@ -192,7 +164,7 @@ double change_by(const BudgetedEffect& effect, const Glance& glance) {
 
 Spent spend(std::vector<BudgetedEffect>& effects, const Goal& goal, const BudgetMeans& means, OptionSpeeds& speeds) {
   for (BudgetedEffect& effect : effects) effect.without = change_by(effect, means.glance);
-  fill_speeds(effects, means, speeds);
+  expect_times(effects, means, speeds);
   Spent spent;
   Spending spending(effects, means, speeds);
   Choice choice;

@@ -113,6 +113,29 @@ TEST_F(AutoBudget, SettingsThatWereAskedForStand) {
   }
 }
 
+/// The table of the device has two sizes of every option, and the frame's own of what was run.
+TEST_F(AutoBudget, TheTableOfSpeedsIsKeptAndMadeAnewWhereItIsOld) {
+  const std::map<std::string, std::string> environment = {{"GLOAM_CACHE_DIR", path("cache")}};
+  const Arguments words = {"auto", path("frame.exr"), "-o",   path("out.exr"), "--budget", "1000s", "--preset",
+                           "low",  "--resolution",    "half", "--json",        "-"};
+  const auto table = [&] {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(path("cache") / fs::path("speeds"))) files.push_back(entry.path());
+    EXPECT_EQ(files.size(), 1u);
+    return files.front();
+  };
+  const Result first = gloam(words, environment);
+  ASSERT_EQ(first.status, 0) << first.err;
+  const Json times = Json::parse(slurp(table())).at("times");
+  EXPECT_GE(times.size(), 4u) << times;
+  for (const auto& [label, sizes] : times.items()) EXPECT_GE(sizes.size(), 2u) << label << sizes;
+  std::ofstream(table()) << "{\"ns_per_pixel\": {\"evidence, low, half\": 1}}";
+  const Result again = gloam(words, environment);
+  EXPECT_EQ(again.status, 0);
+  EXPECT_EQ(again.err, first.err);
+  EXPECT_EQ(Json::parse(slurp(table())).at("times").size(), times.size());
+}
+
 TEST_F(AutoBudget, TwoEyesAreWeighedTogether) {
   ASSERT_EQ(gloam({"capture", "gallery", "-o", path("eyes.exr"), "--size", "128x72", "--stereo", "0.065"}).status, 0);
   const Result result = automatic({"--budget", "1000s"}, "eyes.exr");
