@@ -9,6 +9,7 @@ namespace gloam {
 
 void check_goal(const Goal& goal, const AutoPlan& planned) {
   if (!goal) return;
+  check_one_goal(goal);
   if (planned.facts.is_of_display)
     throw UsageError(
         "{}: weighs effects by the picture of one camera, and a light-field display has many; leave it out",
