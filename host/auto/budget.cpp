@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "auto/option_times.h"
 #include "base/lists.h"
 #include "base/statistics.h"
 
@@ -15,49 +16,25 @@ namespace {
 /// More rounds than options of one effect are never needed; this bounds a device whose times jump.
 constexpr int most_rounds = 24;
 
-RunResult timed(const Plan& plan, const Frame& frame, const BudgetMeans& means) {
-  RunOptions options = means.options;
-  options.repeat = std::max(3, means.options.repeat);
-  return run(plan, frame, means.device, options);
-}
-
 /// An option's error beside the one of the effect's sign and size, which the glance's losses hold already.
 double unsigned_error(const Technique& technique, const EffectOption& option) {
   const double missing = 1 - 1 / true_per_seen_change(technique);
   return std::sqrt(std::max(0.0, option.relative_error * option.relative_error - missing * missing));
 }
 
-double pixels_of(const Frame& frame) { return double(frame.width()) * frame.height() * double(frame.views.size()); }
-
-/// Options of all effects that the table does not have are measured on the glance's pixels.
-void fill_speeds(std::vector<BudgetedEffect>& effects, const BudgetMeans& means, EffectSpeeds& speeds) {
-  std::vector<const EffectOption*> unknown;
-  for (const BudgetedEffect& effect : effects)
-    for (const EffectOption& option : effect.options)
-      if (!speeds.find(option.label())) unknown.push_back(&option);
-  const Frame& small = means.glance.small();
-  for (size_t i = 0; i < unknown.size(); ++i) {
-    if (means.measuring) means.measuring(int(i), int(unknown.size()));
-    const Plan plan = make_plan(unknown[i]->request, means.available, means.holds);
-    speeds.set(unknown[i]->label(), 1e6 * median(timed(plan, small, means).total_ms) / pixels_of(small));
-  }
-  if (means.measuring && !unknown.empty()) means.measuring(int(unknown.size()), int(unknown.size()));
-  const double pixels = pixels_of(means.frame);
-  for (BudgetedEffect& effect : effects) {
-    effect.expected_ms.clear();
-    for (const EffectOption& option : effect.options)
-      effect.expected_ms.push_back(speeds.find(option.label()).value_or(1) * pixels / 1e6);
-  }
-}
-
 /// One round of measuring: what was measured on the frame, and by how much the table was wrong.
 class Spending {
  public:
-  Spending(std::vector<BudgetedEffect>& effects, const BudgetMeans& means, EffectSpeeds& speeds)
-      : effects_(effects), means_(means), speeds_(speeds), times_(effects.size()), corrections_(effects.size(), 1) {}
+  Spending(std::vector<BudgetedEffect>& effects, const BudgetMeans& means, OptionSpeeds& speeds)
+      : effects_(effects),
+        means_(means),
+        speeds_(speeds),
+        looking_ms_(means.glance.ms() + means.probing_ms),
+        times_(effects.size()),
+        corrections_(effects.size(), 1) {}
 
   ChoiceProblem problem() const {
-    ChoiceProblem problem;
+    ChoiceProblem problem{.looking_ms = looking_ms_};
     for (size_t i = 0; i < effects_.size(); ++i) {
       problem.effects.emplace_back();
       for (size_t k = 0; k < effects_[i].options.size(); ++k) {
@@ -123,7 +100,7 @@ class Spending {
     RunResult result = timed(plan, means_.frame, means_);
     const double everywhere = median(result.total_ms);
     take(effect, std::move(plan), std::move(result), false);
-    speeds_.set(option.label(), 1e6 * everywhere / pixels_of(means_.frame));
+    speeds_.add(option.label(), size_of(means_.frame), everywhere);
     corrections_[i] = everywhere / std::max(effect.expected_ms[size_t(effect.chosen)], 1e-6);
     if (!effect.mask.empty()) try_mask(effect, option);
     // The slower of two times is kept, so that noise does not make a choice go round in circles.
@@ -143,21 +120,16 @@ class Spending {
 
   std::vector<BudgetedEffect>& effects_;
   const BudgetMeans& means_;
-  EffectSpeeds& speeds_;
+  OptionSpeeds& speeds_;
+  double looking_ms_;
   std::vector<std::map<int, double>> times_;  ///< by effect, measured on the frame
   std::vector<double> corrections_;           ///< by effect: measured over expected
 };
 
-Choice choose_for(const BudgetGoal& goal, const ChoiceProblem& problem, double glance_ms, bool& is_missed) {
-  is_missed = false;
-  if (goal.ms) {
-    if (const auto best = best_within_time(problem, *goal.ms - glance_ms)) return *best;
-    is_missed = true;
-    return figures_of(problem, std::vector<int>(problem.effects.size(), left_out));
-  }
-  if (const auto fastest = fastest_within_error(problem, *goal.error)) return *fastest;
-  is_missed = true;
-  return most_accurate(problem);
+Choice choose_for(const Goal& goal, const ChoiceProblem& problem, bool& is_missed) {
+  const std::optional<Choice> best = best_within(problem, goal);
+  is_missed = !best;
+  return best ? *best : nearest_miss(problem, goal);
 }
 
 void name_cheapest(const std::vector<BudgetedEffect>& effects, const ChoiceProblem& problem, Spent& spent) {
@@ -173,6 +145,14 @@ void name_cheapest(const std::vector<BudgetedEffect>& effects, const ChoiceProbl
   spent.cheapest_ms = spent.glance_ms + (effects.empty() ? 0 : least);
 }
 
+/// "evidence, medium, half + sssr, low, full"
+std::string label_of(const std::vector<BudgetedEffect>& effects, const std::vector<int>& options) {
+  std::vector<std::string> labels;
+  for (size_t i = 0; i < effects.size(); ++i)
+    if (options[i] != left_out) labels.push_back(effects[i].options[size_t(options[i])].label());
+  return labels.empty() ? "no effect" : fmt::format("{}", fmt::join(labels, " + "));
+}
+
 /// What the picture changes by an effect's planes, by any of its options.
 double change_by(const BudgetedEffect& effect, const Glance& glance) {
   std::vector<std::string> planes;
@@ -182,20 +162,21 @@ double change_by(const BudgetedEffect& effect, const Glance& glance) {
 
 }  // namespace
 
-Spent spend(std::vector<BudgetedEffect>& effects, const BudgetGoal& goal, const BudgetMeans& means,
-            EffectSpeeds& speeds) {
+Spent spend(std::vector<BudgetedEffect>& effects, const Goal& goal, const BudgetMeans& means, OptionSpeeds& speeds) {
   for (BudgetedEffect& effect : effects) effect.without = change_by(effect, means.glance);
-  fill_speeds(effects, means, speeds);
+  expect_times(effects, means, speeds);
   Spent spent;
-  spent.glance_ms = means.glance.ms() + means.probing_ms;
   Spending spending(effects, means, speeds);
   Choice choice;
   for (int round = 0; round < most_rounds; ++round) {
-    choice = choose_for(goal, spending.problem(), spent.glance_ms, spent.is_missed);
+    choice = choose_for(goal, spending.problem(), spent.is_missed);
     if (!spending.run_chosen(choice)) break;
   }
   const ChoiceProblem problem = spending.problem();
+  spent.glance_ms = problem.looking_ms;
   spent.expected_error = choice.error;
+  spent.why =
+      why_chosen(problem, choice, goal, [&](const std::vector<int>& options) { return label_of(effects, options); });
   name_cheapest(effects, problem, spent);
   const bool any = std::any_of(effects.begin(), effects.end(), [](const auto& e) { return e.chosen != left_out; });
   if (goal.ms && !any && !effects.empty()) spent.is_missed = true;

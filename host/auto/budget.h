@@ -9,8 +9,8 @@
 #include "auto/automatic.h"
 #include "auto/choice.h"
 #include "auto/effect_options.h"
-#include "auto/effect_speeds.h"
 #include "auto/glance.h"
+#include "planner/speeds.h"
 
 namespace gloam {
 
@@ -46,7 +46,6 @@ struct BudgetMeans {
 
 /// Chooses by the device's table of speeds, computes, measures, and chooses again by what was measured, until the choice stays. Options
 /// that the table lacks are measured on the glance's pixels first, once on a device.
-Spent spend(std::vector<BudgetedEffect>& effects, const BudgetGoal& goal, const BudgetMeans& means,
-            EffectSpeeds& speeds);
+Spent spend(std::vector<BudgetedEffect>& effects, const Goal& goal, const BudgetMeans& means, OptionSpeeds& speeds);
 
 }  // namespace gloam

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "planner/reason.h"
 
 namespace gloam {
 namespace {
@@ -18,32 +19,33 @@ std::vector<std::string> planes_of(const ChoiceProblem& problem, const std::vect
   return planes;
 }
 
-/// Calls `look` for every combination of options, the empty one first.
-template <typename Look>
-void for_each_choice(const ChoiceProblem& problem, const Look& look) {
-  std::vector<int> options(problem.effects.size(), left_out);
-  while (true) {
-    look(figures_of(problem, options));
-    size_t i = 0;
-    for (; i < options.size(); ++i) {
-      if (++options[i] < int(problem.effects[i].size())) break;
-      options[i] = left_out;
-    }
-    if (i == options.size()) return;
+/// The options of a choice by its number among all: 0 is the empty one.
+std::vector<int> options_of(const ChoiceProblem& problem, size_t number) {
+  std::vector<int> options;
+  for (const auto& effect : problem.effects) {
+    const size_t ways = effect.size() + 1;
+    options.push_back(int(number % ways) - 1);
+    number /= ways;
   }
+  return options;
 }
 
-/// Errors that differ by less are taken for equal.
-constexpr double least_difference = 1.03;
-
-bool relies_less_on_luck(const Choice& a, const Choice& b) {
-  return a.without_luck < b.without_luck || (a.without_luck == b.without_luck && a.ms < b.ms);
+/// Of every choice. How far its error may be off is told by what it would be without luck.
+std::vector<Figures> figures_of_all(const ChoiceProblem& problem) {
+  size_t count = 1;
+  for (const auto& effect : problem.effects) count *= effect.size() + 1;
+  std::vector<Figures> all;
+  for (size_t i = 0; i < count; ++i) {
+    const Choice choice = figures_of(problem, options_of(problem, i));
+    all.push_back({choice.ms, choice.error, choice.without_luck});
+  }
+  return all;
 }
 
 }  // namespace
 
 Choice figures_of(const ChoiceProblem& problem, const std::vector<int>& options) {
-  Choice choice{options, 0, 0, 0};
+  Choice choice{options, problem.looking_ms, 0, 0};
   double squares = std::pow(problem.loss_with(planes_of(problem, options)), 2), squares_of_each = 0;
   for (size_t i = 0; i < options.size(); ++i) {
     const double without = problem.loss_without[i];
@@ -61,31 +63,22 @@ Choice figures_of(const ChoiceProblem& problem, const std::vector<int>& options)
   return choice;
 }
 
-std::optional<Choice> best_within_time(const ChoiceProblem& problem, double ms) {
-  double least = std::numeric_limits<double>::infinity();
-  for_each_choice(problem, [&](const Choice& choice) {
-    if (choice.ms <= ms) least = std::min(least, choice.error);
-  });
-  std::optional<Choice> best;
-  for_each_choice(problem, [&](const Choice& choice) {
-    if (choice.ms > ms || choice.error > least * least_difference) return;
-    if (!best || relies_less_on_luck(choice, *best)) best = choice;
-  });
-  return best;
+std::optional<Choice> best_within(const ChoiceProblem& problem, const Goal& goal) {
+  const std::optional<size_t> best = best_within(figures_of_all(problem), goal);
+  return best ? std::optional(figures_of(problem, options_of(problem, *best))) : std::nullopt;
 }
 
-std::optional<Choice> fastest_within_error(const ChoiceProblem& problem, double error) {
-  std::optional<Choice> fastest;
-  for_each_choice(problem, [&](const Choice& choice) {
-    if (choice.error > error) return;
-    if (!fastest || choice.ms < fastest->ms || (choice.ms == fastest->ms && choice.error < fastest->error))
-      fastest = choice;
-  });
-  return fastest;
+Choice nearest_miss(const ChoiceProblem& problem, const Goal& goal) {
+  return figures_of(problem, options_of(problem, nearest_miss(figures_of_all(problem), goal)));
 }
 
-Choice most_accurate(const ChoiceProblem& problem) {
-  return *best_within_time(problem, std::numeric_limits<double>::infinity());
+std::string why_chosen(const ChoiceProblem& problem, const Choice& choice, const Goal& goal,
+                       const std::function<std::string(const std::vector<int>& options)>& label) {
+  size_t number = 0;
+  for (size_t i = choice.options.size(); i-- > 0;)
+    number = number * (problem.effects[i].size() + 1) + size_t(choice.options[i] + 1);
+  return why_chosen(figures_of_all(problem), number, goal,
+                    {.label = [&](size_t i) { return label(options_of(problem, i)); }, .error = "expected RMSE"});
 }
 
 }  // namespace gloam

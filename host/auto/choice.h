@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "planner/figures.h"
+
 namespace gloam {
 
 /// A way to compute an effect.
@@ -25,11 +27,12 @@ struct ChoiceProblem {
   std::function<double(const std::vector<std::string>& planes)> loss_with;
   /// Of each effect: RMS difference between the picture of everything and the one without the effect.
   std::vector<double> loss_without;
+  double looking_ms = 0;  ///< what looking has taken, whatever is chosen
 };
 
 struct Choice {
   std::vector<int> options;  ///< by effect; `left_out`: the effect is not computed
-  double ms = 0;             ///< sum over effects
+  double ms = 0;             ///< sum over effects, with looking
   double error = 0;          ///< expected RMS error of the picture
   double without_luck = 0;   ///< the same if errors of different effects never cancelled
 };
@@ -40,14 +43,15 @@ inline constexpr int left_out = -1;
 /// have different causes.
 Choice figures_of(const ChoiceProblem& problem, const std::vector<int>& options);
 
-/// The choice of least error within a time. Errors of different effects may cancel, which is luck in part: of choices whose errors
-/// differ by 3 % or less, the one that relies on it least, then the faster. None if even the empty choice takes longer (`ms` below 0).
-std::optional<Choice> best_within_time(const ChoiceProblem& problem, double ms);
+/// Of all choices the one that the goal asks for (`planner/figures.h`); none if no choice is within it. Errors of different effects may
+/// cancel, which is luck in part: a choice is the surer, the less it relies on that.
+std::optional<Choice> best_within(const ChoiceProblem& problem, const Goal& goal);
 
-/// The fastest choice within an error; none if no choice is expected to reach it.
-std::optional<Choice> fastest_within_error(const ChoiceProblem& problem, double error);
+/// The choice that misses the goal least.
+Choice nearest_miss(const ChoiceProblem& problem, const Goal& goal);
 
-/// The choice of least error, whatever it takes.
-Choice most_accurate(const ChoiceProblem& problem);
+/// Why a choice is the one for the goal (`planner/reason.h`). `label`: of the options of a choice.
+std::string why_chosen(const ChoiceProblem& problem, const Choice& choice, const Goal& goal,
+                       const std::function<std::string(const std::vector<int>& options)>& label);
 
 }  // namespace gloam

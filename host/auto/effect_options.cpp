@@ -4,7 +4,6 @@
 
 #include "base/lists.h"
 #include "gloam/composition.h"
-#include "run/run_words.h"
 #include "technique/data_files.h"
 
 namespace gloam {
@@ -18,14 +17,6 @@ const Technique& measured_like(const Technique& technique) {
   return refined.empty() ? technique : find_technique(refined);
 }
 
-std::string setting_of(const std::string& preset, int resolution) {
-  return fmt::format("{}, {}", preset, word_for(resolution, resolution_words));
-}
-
-std::string label_of(const std::vector<std::string>& techniques, const std::string& preset, int resolution) {
-  return fmt::format("{}, {}", fmt::join(techniques, " + "), setting_of(preset, resolution));
-}
-
 const nlohmann::json& measured_figures() {
   static const nlohmann::json table = nlohmann::json::parse(data_files().at("effect_errors.json"));
   return table;
@@ -35,7 +26,7 @@ const nlohmann::json& measured_figures() {
 double measured_error(const EffectOption& option, const Technique& technique) {
   const nlohmann::json& errors = measured_figures().at("relative_errors");
   for (const std::string& name : {technique.name, measured_like(technique).name}) {
-    const auto found = errors.find(label_of({name}, option.preset, option.resolution));
+    const auto found = errors.find(fmt::format("{}, {}", name, option.setting()));
     if (found != errors.end()) return *found;
   }
   return unmeasured_error;
@@ -80,10 +71,6 @@ bool complete(EffectOption& option, const Technique& technique, const EffectProb
 
 }  // namespace
 
-std::string EffectOption::label() const { return label_of(request.outputs, preset, resolution); }
-
-std::string EffectOption::setting() const { return setting_of(preset, resolution); }
-
 double true_per_seen_change(const Technique& technique) {
   return measured_figures().at("true_per_seen_change").value(technique.name, 1.0);
 }
@@ -93,7 +80,7 @@ std::vector<EffectOption> options_of(const Technique& technique, const EffectPro
   for (const std::vector<std::string>& techniques : combinations_of(technique)) {
     for (const std::string& preset : presets_of(technique, probe.asked)) {
       for (const int resolution : resolutions_of(probe.asked)) {
-        EffectOption option{request_everywhere(technique, probe.asked), preset, resolution};
+        EffectOption option{{request_everywhere(technique, probe.asked)}};
         option.request.outputs = techniques;
         option.request.preset = preset;
         option.request.resolution = resolution;

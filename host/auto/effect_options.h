@@ -5,19 +5,15 @@
 #include <vector>
 
 #include "auto/automatic.h"
+#include "planner/plan_option.h"
 
 namespace gloam {
 
-struct EffectOption {
-  PlanRequest request;             ///< for all pixels
-  std::string preset;              ///< "medium"
-  int resolution = 1;              ///< 1, 2 or 4
+/// Its request is for all pixels.
+struct EffectOption : PlanOption {
   std::vector<std::string> makes;  ///< planes that the picture takes
   /// RMS error of the picture by this option as a share of the error of a picture without the effect (data/effect_errors.json).
   double relative_error = 1;
-  /// "evidence + multi-bounce, medium, half": names its speed and its error.
-  std::string label() const;
-  std::string setting() const;  ///< "medium, half"
 };
 
 /// How much more an effect changes the true picture than a glance sees: light also comes from what the image does not show

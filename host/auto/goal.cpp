@@ -1,17 +1,15 @@
-#include "auto/goal.h"
+#include "planner/goal.h"
 
 #include "base/lists.h"
+#include "gloam/auto.h"
 #include "gloam/error.h"
 #include "gloam/option.h"
 
 namespace gloam {
-std::string in_words(const BudgetGoal& goal) {
-  return goal.ms ? option("budget", fmt::format("{:g}", *goal.ms)) + "ms"
-                 : option("error", fmt::format("{:g}", *goal.error));
-}
 
-void check_goal(const BudgetGoal& goal, const AutoPlan& planned) {
+void check_goal(const Goal& goal, const AutoPlan& planned) {
   if (!goal) return;
+  check_one_goal(goal);
   if (planned.facts.is_of_display)
     throw UsageError(
         "{}: weighs effects by the picture of one camera, and a light-field display has many; leave it out",
@@ -29,7 +27,7 @@ void check_goal(const BudgetGoal& goal, const AutoPlan& planned) {
         in_words(goal), planned.facts.name, channels_option("color", "LAYER"));
 }
 
-std::string note_on_goal(const Spent& spent, const BudgetGoal& goal) {
+std::string note_on_goal(const Spent& spent, const Goal& goal) {
   if (!spent.is_missed) return "";
   if (goal.error)
     return fmt::format("{}: no choice is expected to reach it; the nearest, {:.4f}, was taken", in_words(goal),

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "auto/goal.h"
 #include "base/json_text.h"
 #include "gloam/error.h"
+#include "planner/goal.h"
 
 namespace gloam {
 namespace {
@@ -62,7 +62,7 @@ double ms_of(const AutoResult& result) {
 
 }  // namespace
 
-nlohmann::ordered_json document_of(const AutoResult& result, const BudgetGoal& goal, const DeviceInfo& device) {
+nlohmann::ordered_json document_of(const AutoResult& result, const Goal& goal, const DeviceInfo& device) {
   Json effects = Json::array();
   double classify_ms = 0;
   for (const Outcome& o : result.outcomes) {
@@ -80,6 +80,7 @@ nlohmann::ordered_json document_of(const AutoResult& result, const BudgetGoal& g
   if (goal.error) document["error_goal"] = *goal.error;
   document["expected_error"] = result.spent->expected_error;
   document["goal_met"] = !result.spent->is_missed;
+  document["why"] = result.spent->why;
   return document;
 }
 
@@ -104,7 +105,7 @@ std::string saved_in_words(const Outcome& o) {
 
 std::string lost_in_words(const Outcome& o) { return std::isnan(o.lost) ? "" : fmt::format("{:.4f}", o.lost); }
 
-std::string totals_in_words(const AutoResult& result, const BudgetGoal& goal) {
+std::string totals_in_words(const AutoResult& result, const Goal& goal) {
   double looking = result.glance_ms;
   for (const Outcome& o : result.outcomes) looking += o.decision.effect.classify_ms;
   if (!result.spent)
@@ -115,7 +116,7 @@ std::string totals_in_words(const AutoResult& result, const BudgetGoal& goal) {
       in_words(goal), ms_of(result), result.spent->glance_ms, result.spent->expected_error);
 }
 
-std::string json_of(const AutoResult& result, const BudgetGoal& goal, const DeviceInfo& device) {
+std::string json_of(const AutoResult& result, const Goal& goal, const DeviceInfo& device) {
   return document_of(result, goal, device).dump();
 }
 

@@ -9,7 +9,7 @@
 namespace gloam {
 
 /// As `gloam auto --json` writes it (`json_of`).
-nlohmann::ordered_json document_of(const AutoResult& result, const BudgetGoal& goal, const DeviceInfo& device);
+nlohmann::ordered_json document_of(const AutoResult& result, const Goal& goal, const DeviceInfo& device);
 
 /// "evidence + multi-bounce, medium, half": what runs for an effect, with the setting that a budget chose.
 std::string runs_in_words(const Outcome& outcome);
@@ -21,7 +21,7 @@ std::string saved_in_words(const Outcome& outcome);
 std::string lost_in_words(const Outcome& outcome);
 
 /// The time of all effects, and what a budget came to: a sentence.
-std::string totals_in_words(const AutoResult& result, const BudgetGoal& goal);
+std::string totals_in_words(const AutoResult& result, const Goal& goal);
 
 /// [{"plane": "ao", "used": true, "how": "darkens ambient light"}, ...]
 nlohmann::ordered_json composition_document(const Composition& composition);

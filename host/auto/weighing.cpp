@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "auto/effect_speeds.h"
 #include "base/lists.h"
 #include "base/statistics.h"
+#include "planner/speeds.h"
 
 namespace gloam {
 namespace {
@@ -110,7 +110,7 @@ void spend_budget(const Candidates& candidates, const AutoSettings& settings, co
     owners.push_back(&outcome);
   }
   const EffectProbe probe = probe_for(candidates.possible.front());
-  EffectSpeeds speeds(probe.device.info());
+  OptionSpeeds speeds(probe.device.info());
   const BudgetMeans means{.frame = probe.frame,
                           .available = probe.available,
                           .holds = probe.holds,

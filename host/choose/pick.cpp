@@ -17,6 +17,8 @@
 #include "measure/effects.h"
 #include "measure/schedule.h"
 #include "measure/similarity.h"
+#include "planner/goal.h"
+#include "planner/reason.h"
 
 namespace gloam::bench {
 namespace {
@@ -47,6 +49,7 @@ class Search {
     measure_likeness(outcome.finalists, *outcome.best);
     for (const Contestant& entry : outcome.finalists) picked_.finalists.push_back(entry.choice);
     picked_.best = *outcome.best;
+    picked_.why = why_best(outcome);
     return std::move(picked_);
   }
 
@@ -189,20 +192,27 @@ class Search {
                   option("time"), option("all"));
     if (outcome.tried == 0) throw Error("{}: nothing can be measured: {}", subject_.name, picked_.skipped.back().why);
     if (outcome.best) return;
-    const std::vector<Contestant>& all = outcome.finalists;
-    if (options_.budget)
-      throw Error("{}ms: nothing is that fast on this frame and device; the fastest is {} with {:.2f} ms",
-                  option("budget", fmt::format("{:g}", *options_.budget)), name_of(all.front().choice.variation),
-                  all.front().choice.ms);
-    const Contestant& nearest =
-        *std::min_element(all.begin(), all.end(),
-                          [&](const Contestant& a, const Contestant& b) { return off(a.choice) < off(b.choice); });
-    throw Error("{}: nothing comes that near to {}; the nearest is {} with {:.4f}",
-                option("error", fmt::format("{:g}", *options_.error)), picked_.truth, name_of(nearest.choice.variation),
-                off(nearest.choice));
+    throw Error("{}", why_none(figures_of_all(outcome.finalists), options_.goal, words_for(outcome.finalists)));
   }
 
-  double off(const Choice& choice) const { return error_of(choice, options_.by); }
+  /// Among all that were tried; the finalists come first.
+  std::string why_best(const ContestResult& outcome) const {
+    std::vector<Contestant> all = outcome.finalists;
+    all.insert(all.end(), outcome.others.begin(), outcome.others.end());
+    return why_chosen(figures_of_all(all), *outcome.best, options_.goal, words_for(all));
+  }
+
+  std::vector<Figures> figures_of_all(const std::vector<Contestant>& all) const {
+    std::vector<Figures> figures;
+    for (const Contestant& entry : all) figures.push_back(figures_of(entry.choice, options_.by));
+    return figures;
+  }
+
+  OptionWords words_for(const std::vector<Contestant>& all) const {
+    return {.label = [&all](size_t i) { return option_of(all[i].choice.variation).label(); },
+            .error = name_of_error(options_.by),
+            .truth = picked_.truth};
+  }
 
   const Subject& subject_;
   const PickOptions& options_;
@@ -275,15 +285,13 @@ unsigned long long affordable(const std::string& name, unsigned long long bytes)
 
 PickResult pick_setting(const std::string& frame, const PickRequest& request, Device& device) {
   using namespace bench;
-  if (request.budget.has_value() == request.error.has_value())
-    throw UsageError("pick: give either a budget (milliseconds) or an error (such as 0.02)");
+  check_has_goal(request.goal, "pick");
   const PickBy by = value_of(request.by, "by", pick_figures);
   if (by == PickBy::flicker) throw UsageError("by flicker: is of a shot, and {} is one frame", frame);
   std::vector<Skipped> left_out;
   const std::string effect = effect_to_pick(request.truths, request.techniques);
   PickOptions options{.techniques = techniques_to_pick(request.techniques, effect, left_out),
-                      .budget = request.budget,
-                      .error = request.error,
+                      .goal = request.goal,
                       .by = by,
                       .rounds = request.rounds,
                       .progress = request.progress};
@@ -302,6 +310,8 @@ PickResult pick_setting(const std::string& frame, const PickRequest& request, De
         {v.technique->name, v.name(), resolution_of(v), choice.ms, choice.rmse, choice.ssim, choice.flip});
   }
   result.best = picked.best;
+  result.why = picked.why;
+  result.not_tried = not_tried_in_words(picked.left_out, picked.skipped);
   result.error_to = picked.truth;
   result.has_truth = picked.has_truth;
   result.radius = made.subject.radius;

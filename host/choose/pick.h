@@ -14,6 +14,7 @@ struct Picked {
   std::vector<Choice> finalists;  ///< sorted by time
   size_t tried = 0;               ///< number of settings tried
   size_t best = 0;                ///< index of the best finalist
+  std::string why;                ///< why it is the best, in a sentence
   std::string truth;              ///< reference of the errors: "the truth", or its stand-in
   bool has_truth = true;          ///< it is no stand-in
   std::vector<Skipped> skipped;

@@ -4,48 +4,30 @@
 
 #include "base/statistics.h"
 #include "gloam/error.h"
+#include "planner/reason.h"
 
 namespace gloam::bench {
 namespace {
 
-/// RMSE, 1 - SSIM or flicker.
-double figure_of(const SequenceRow& row, PickBy by) {
-  if (by == PickBy::flicker) return row.flicker.flicker().value_or(1);
-  return by == PickBy::ssim ? 1 - row.ssim : row.rmse;
-}
-
-/// How far a setting misses the bound, as a factor; 1 or less: it is within.
-double off(const SequenceRow& row, const PickOptions& options) {
-  return options.budget ? median(row.ms) / *options.budget : figure_of(row, options.by) / *options.error;
-}
-
-/// The best first: those within the bound before others, and of these the nearest to it.
-void sort_by_bound(std::vector<SequenceRow>& rows, const PickOptions& options) {
-  std::sort(rows.begin(), rows.end(), [&](const SequenceRow& a, const SequenceRow& b) {
-    const double off_a = off(a, options), off_b = off(b, options);
-    if ((off_a <= 1) != (off_b <= 1)) return off_a <= 1;
-    if (off_a > 1) return off_a < off_b;
-    return options.budget ? figure_of(a, options.by) < figure_of(b, options.by) : median(a.ms) < median(b.ms);
-  });
-}
-
-void check_bound(const std::vector<SequenceRow>& rows, const PickOptions& options) {
-  const SequenceRow& best = rows.front();
-  if (off(best, options) <= 1) return;
-  const std::string name = best.variation.technique->name + " " + best.variation.name();
-  if (options.budget)
-    throw Error("no setting takes {:g} ms a frame or less; the fastest is {} with {:.2f} ms", *options.budget, name,
-                median(best.ms));
-  throw Error("no setting has {} {:g} or less; the nearest is {} with {:.4f}",
-              options.by == PickBy::ssim ? "1 - SSIM" : name_of(options.by), *options.error, name,
-              figure_of(best, options.by));
+/// The time of a frame, and RMSE, 1 - SSIM or flicker.
+Figures figures_of_row(const SequenceRow& row, PickBy by) {
+  const double ms = median(row.ms);
+  if (by == PickBy::flicker) return {ms, row.flicker.flicker().value_or(1)};
+  return {ms, by == PickBy::ssim ? 1 - row.ssim : row.rmse};
 }
 
 }  // namespace
 
-void rank(std::vector<SequenceRow>& rows, const PickOptions& options) {
-  sort_by_bound(rows, options);
-  check_bound(rows, options);
+std::string rank(std::vector<SequenceRow>& rows, const PickOptions& options) {
+  std::sort(rows.begin(), rows.end(), [&](const SequenceRow& a, const SequenceRow& b) {
+    return ranks_before(figures_of_row(a, options.by), figures_of_row(b, options.by), options.goal);
+  });
+  std::vector<Figures> all;
+  for (const SequenceRow& row : rows) all.push_back(figures_of_row(row, options.by));
+  const OptionWords words{.label = [&](size_t i) { return option_of(rows[i].variation).label(); },
+                          .error = name_of_error(options.by)};
+  if (!is_within(all.front(), options.goal)) throw Error("{}", why_none(all, options.goal, words));
+  return why_chosen(all, 0, options.goal, words);
 }
 
 }  // namespace gloam::bench

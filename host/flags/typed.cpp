@@ -1,27 +1,16 @@
 #include "flags/typed.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 
 #include "base/lists.h"
+#include "base/numbers.h"
 #include "gloam/error.h"
 #include "gloam/frame.h"
 
 namespace gloam::cli {
 namespace {
-
-/// The whole text as a number; none if it is not a number.
-template <typename Number>
-std::optional<Number> number_in(const std::string& text) {
-  Number value{};
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || stop != end) return {};
-  return value;
-}
 
 bool is_within(double value, const Range<double>& range) {
   if (range.or_infinite && std::isinf(value)) return value > 0 || range.least < 0;
@@ -80,40 +69,9 @@ Overscan parse_overscan(const std::string& text, const std::string& flag) {
   throw UsageError("{} {} has no unit; write 10% of the size on each side, or 64px", flag, text);
 }
 
-namespace {
-
-struct TimeUnit {
-  const char* name;
-  double seconds;
-};
-
-/// The largest first, as the parts of a time follow one another. "m" and "s" stand behind the units that end in them.
-constexpr std::array<TimeUnit, 5> time_units = {{{"h", 3600}, {"m", 60}, {"s", 1}, {"ms", 1e-3}, {"us", 1e-6}}};
-
-/// Seconds of "2m30s" or "0.5ms"; none for another form.
-std::optional<double> seconds_in(const std::string& text) {
-  double seconds = 0;
-  size_t unit = 0;
-  for (size_t at = 0; at < text.size();) {
-    const size_t end = std::min(text.find_first_not_of("0123456789.", at), text.size());
-    const size_t next = std::min(text.find_first_of("0123456789.", end), text.size());
-    const std::string name = text.substr(end, next - end);
-    while (unit < time_units.size() && time_units[unit].name != name) ++unit;
-    const std::optional<double> value = number_in<double>(text.substr(at, end - at));
-    if (!value || unit == time_units.size()) return {};
-    seconds += *value * time_units[unit++].seconds;
-    at = next;
-  }
-  return seconds;
-}
-
-}  // namespace
-
 double parse_time(const std::string& text, const std::string& flag) {
-  const std::optional<double> seconds = seconds_in(text);
-  if (seconds && is_within(*seconds, Range<double>{1e-9, 1e6})) return *seconds;
-  throw UsageError("{} {} is not allowed; write a number with its unit, such as 30ms, 500us, 90s, 2m30s or 1h, above 0",
-                   flag, text);
+  if (const std::optional<double> seconds = seconds_in(text)) return *seconds;
+  throw UsageError("{} {} is not allowed; {}", flag, text, allowed_times);
 }
 
 std::vector<std::string> split_list(const std::string& text, const std::string& flag) {

@@ -27,10 +27,6 @@ constexpr double unknown_seconds = 0.02;
 /// "medium", "medium, half": what is left out of a technique.
 std::string name_and_resolution(const Variation& v) { return v.name() + (v.variant.empty() ? "" : ", " + v.variant); }
 
-bool is_within(const Choice& tried, const PickOptions& options) {
-  return options.budget ? tried.ms <= *options.budget : error_of(tried, options.by) <= *options.error;
-}
-
 /// Place of the preset among those of the technique, which are sorted by their time.
 size_t rank(const Variation& v) {
   const std::vector<Preset>& presets = source_of(*v.technique).presets;
@@ -64,7 +60,7 @@ class Contest {
     const std::vector<size_t> first = first_looks(all_, "low");
     try_these(first);
     std::vector<FirstLook> looks;
-    for (const Contestant& entry : entries_) looks.push_back({entry.choice.ms, error_of(entry.choice, options_.by)});
+    for (const Contestant& entry : entries_) looks.push_back({entry.choice.ms, figures(entry).error});
     const std::vector<double> distances = distances_to_front(looks);
     try_these(later_looks(all_, first, [&](const Variation& v) {
       for (size_t i = 0; i < distances.size(); ++i) {
@@ -81,7 +77,7 @@ class Contest {
   /// What looks hopeless is set aside, until what speaks against it has been timed often enough.
   void try_these(const std::vector<size_t>& order) {
     for (const size_t i : order) {
-      tell("trying " + name_of(all_[i]), entries_.size() + set_aside_.size(), all_.size());
+      tell("trying " + option_of(all_[i]).label(), entries_.size() + set_aside_.size(), all_.size());
       if (!blockers_of(all_[i]).empty()) {
         set_aside_.push_back(i);
         continue;
@@ -113,19 +109,19 @@ class Contest {
 
   /// A setting that takes longer cannot win.
   double most_ms() const {
-    if (options_.budget) return *options_.budget * doubt;
+    if (options_.goal.ms) return *options_.goal.ms * doubt;
     double most = std::numeric_limits<double>::infinity();
     for (const Contestant& entry : entries_)
-      if (is_within(entry.choice, options_)) most = std::min(most, entry.choice.ms * doubt);
+      if (is_in(entry)) most = std::min(most, entry.choice.ms * doubt);
     return most;
   }
 
   /// Whether a shorter time could make it win.
   bool could_win(const Contestant& entry) const {
-    if (options_.error) return is_within(entry.choice, options_);
-    if (is_within(entry.choice, options_)) return false;  // it is a contender as it is
+    if (options_.goal.error) return is_in(entry);
+    if (is_in(entry)) return false;  // it is a contender as it is
     return std::none_of(entries_.begin(), entries_.end(), [&](const Contestant& other) {
-      return is_within(other.choice, options_) && off(other.choice) <= off(entry.choice);
+      return is_in(other) && figures(other).error <= figures(entry).error;
     });
   }
 
@@ -177,12 +173,13 @@ class Contest {
       const auto sure = std::find_if(blockers.begin(), blockers.end(), [](const Contestant* blocker) {
         return blocker->readings.size() >= enough_readings;
       });
-      leave_out(all_[i], sure == blockers.end() ? time_was_over
-                                                : fmt::format("{} takes {:.2g} ms already",
-                                                              name_of((*sure)->choice.variation), (*sure)->choice.ms));
+      leave_out(all_[i], sure == blockers.end()
+                             ? time_was_over
+                             : fmt::format("{} takes {:.2g} ms already", option_of((*sure)->choice.variation).label(),
+                                           (*sure)->choice.ms));
     }
     for (const Contestant& entry : entries_) {
-      if (!is_within(entry.choice, options_) && could_win(entry) && entry.readings.size() < enough_readings)
+      if (!is_in(entry) && could_win(entry) && entry.readings.size() < enough_readings)
         leave_out(entry.choice.variation, time_was_over);
     }
   }
@@ -194,8 +191,12 @@ class Contest {
   void keep_finalists() {
     std::vector<Choice> choices;
     for (const Contestant& entry : entries_) choices.push_back(entry.choice);
+    const std::vector<size_t> finalists = finalists_of(choices, options_);
+    const std::set<size_t> are_kept(finalists.begin(), finalists.end());
     std::vector<Contestant> kept;
-    for (const size_t i : finalists_of(choices, options_)) kept.push_back(entries_[i]);
+    for (const size_t i : finalists) kept.push_back(entries_[i]);
+    for (size_t i = 0; i < entries_.size(); ++i)
+      if (are_kept.count(i) == 0) result_.others.push_back(entries_[i]);
     entries_ = std::move(kept);
   }
 
@@ -207,10 +208,13 @@ class Contest {
       return sum;
     };
     // The first are the most likely ones.
-    while (entries_.size() > 2 && !timing.allows(double(enough_readings) * seconds_of_round())) entries_.pop_back();
+    while (entries_.size() > 2 && !timing.allows(double(enough_readings) * seconds_of_round())) {
+      result_.others.push_back(entries_.back());
+      entries_.pop_back();
+    }
     std::vector<Contender> contenders;
     for (Contestant& entry : entries_) {
-      contenders.push_back({name_of(entry.choice.variation), [this, &entry] {
+      contenders.push_back({option_of(entry.choice.variation).label(), [this, &entry] {
                               read(entry);
                               return entry.readings.back();
                             }});
@@ -231,16 +235,13 @@ class Contest {
   }
 
   void choose() {
-    const std::vector<Contestant>& all = result_.finalists;
-    for (size_t i = 0; i < all.size(); ++i) {
-      if (!is_within(all[i].choice, options_)) continue;
-      // They are sorted by time, so of those within an error the first is the cheapest.
-      const bool is_better = !result_.best || (options_.budget && off(all[i].choice) < off(all[*result_.best].choice));
-      if (is_better) result_.best = i;
-    }
+    std::vector<Figures> all;
+    for (const Contestant& entry : result_.finalists) all.push_back(figures(entry));
+    result_.best = best_within(all, options_.goal);
   }
 
-  double off(const Choice& choice) const { return error_of(choice, options_.by); }
+  Figures figures(const Contestant& entry) const { return figures_of(entry.choice, options_.by); }
+  bool is_in(const Contestant& entry) const { return is_within(figures(entry), options_.goal); }
 
   const std::vector<Variation>& all_;
   const PickOptions& options_;
@@ -262,34 +263,31 @@ const char* name_of(PickBy by) {
   return by == PickBy::ssim ? "SSIM" : by == PickBy::flip ? "FLIP" : "RMSE";
 }
 
-std::string name_of(const Variation& v) { return v.technique->name + " " + name_and_resolution(v); }
+const char* name_of_error(PickBy by) { return by == PickBy::ssim ? "1 - SSIM" : name_of(by); }
 
-double error_of(const Choice& choice, PickBy by) {
-  if (by == PickBy::ssim) return 1 - choice.ssim.value_or(0);
-  return by == PickBy::flip ? choice.flip.value_or(1) : choice.rmse;
+Figures figures_of(const Choice& choice, PickBy by) {
+  if (by == PickBy::ssim) return {choice.ms, 1 - choice.ssim.value_or(0)};
+  return {choice.ms, by == PickBy::flip ? choice.flip.value_or(1) : choice.rmse};
 }
 
 std::vector<size_t> finalists_of(const std::vector<Choice>& tries, const PickOptions& options) {
-  const auto is_better = [&](size_t a, size_t b) {
-    return options.budget ? error_of(tries[a], options.by) < error_of(tries[b], options.by) : tries[a].ms < tries[b].ms;
-  };
-  const auto is_nearer = [&](const Choice& a, const Choice& b) {
-    return options.budget ? a.ms < b.ms : error_of(a, options.by) < error_of(b, options.by);
-  };
+  std::vector<Figures> all;
+  for (const Choice& tried : tries) all.push_back(figures_of(tried, options.by));
+  const auto better_first = [&](size_t a, size_t b) { return is_better(all[a], all[b], options.goal); };
   std::vector<size_t> within, doubtful;
-  for (size_t i = 0; i < tries.size(); ++i) {
-    if (is_within(tries[i], options))
+  for (size_t i = 0; i < all.size(); ++i) {
+    if (is_within(all[i], options.goal))
       within.push_back(i);
-    else if (options.budget && tries[i].ms <= *options.budget * doubt)
+    else if (options.goal.ms && all[i].ms <= *options.goal.ms * doubt)
       doubtful.push_back(i);
   }
-  std::sort(within.begin(), within.end(), is_better);
+  std::sort(within.begin(), within.end(), better_first);
   const auto rest = within.begin() + std::min(within.size(), most_finalists / 2);
   doubtful.insert(doubtful.end(), rest, within.end());
   within.erase(rest, within.end());
-  std::sort(doubtful.begin(), doubtful.end(), is_better);
+  std::sort(doubtful.begin(), doubtful.end(), better_first);
   // At least one, to tell how far the bound is missed.
-  const size_t nearest = size_t(std::min_element(tries.begin(), tries.end(), is_nearer) - tries.begin());
+  const size_t nearest = nearest_miss(all, options.goal);
   std::vector<size_t> finalists = {nearest};
   for (const std::vector<size_t>* some : {&within, &doubtful}) {
     for (const size_t i : *some) {

@@ -9,6 +9,7 @@
 
 #include "base/words.h"
 #include "measure/measurement.h"
+#include "planner/figures.h"
 
 namespace gloam::bench {
 
@@ -18,11 +19,12 @@ enum class PickBy { rmse, ssim, flip, flicker };  // flicker: of sequences
 extern const Choices<PickBy> pick_figures;
 /// "RMSE", "SSIM", "FLIP" or "flicker".
 const char* name_of(PickBy by);
+/// Of what a goal bounds: "1 - SSIM" for SSIM.
+const char* name_of_error(PickBy by);
 
 struct PickOptions {
   std::vector<const Technique*> techniques;
-  std::optional<double> budget;  ///< milliseconds; the most accurate within it is picked
-  std::optional<double> error;   ///< bound on the deciding figure; the cheapest setting within it is picked
+  Goal goal;  ///< a time, the filter included, or a bound on the deciding figure
   PickBy by = PickBy::rmse;
   int rounds = 9;
   /// For everything. None: every setting is tried.
@@ -38,8 +40,8 @@ struct Choice {
   std::optional<double> flip;  ///< of the picture as displayed; only if it decides
 };
 
-/// Error of an image by the deciding figure: RMSE, 1 - SSIM, or FLIP.
-double error_of(const Choice& choice, PickBy by);
+/// Its time, and its error by the deciding figure: RMSE, 1 - SSIM, or FLIP.
+Figures figures_of(const Choice& choice, PickBy by);
 
 /// Readings of a setting's time before its time may cost it its place: other work on the machine makes single ones too long.
 constexpr size_t enough_readings = 3;
@@ -62,7 +64,8 @@ struct Trials {
 
 struct ContestResult {
   std::vector<Contestant> finalists;  ///< sorted by time, which is the median of the rounds
-  std::optional<size_t> best;         ///< none: nothing is within the bound
+  std::optional<size_t> best;         ///< of the finalists; none: nothing is within the bound
+  std::vector<Contestant> others;     ///< tried, and no finalists
   size_t tried = 0;                   ///< number of settings tried
   /// Settings that were not tried: `why` names a faster one that is too slow already, or says that the time was over. Also those whose
   /// time decides against them, and was over before they were timed often enough.
@@ -80,8 +83,5 @@ ContestResult hold_contest(const std::vector<Variation>& all, const PickOptions&
 /// Indices of the entries to time in turn; first the one that misses the bound least. They are the most accurate ones that a budget may
 /// allow after all, but half of the places go to those within it at once: near misses must not crowd them out.
 std::vector<size_t> finalists_of(const std::vector<Choice>& tries, const PickOptions& options);
-
-/// "gtao medium, half".
-std::string name_of(const Variation& variation);
 
 }  // namespace gloam::bench

@@ -10,13 +10,12 @@
 #include "shared/sampling/ambient_occlusion.h"
 
 namespace gloam::bench {
-namespace {
 
-/// The radius in the shortest form that reads back as the same float.
 PlanRequest request_for(const Variation& variation) {
   PlanRequest request{
       .outputs = {variation.technique->name}, .preset = variation.preset, .resolution = variation.resolution};
   if (ParameterValues(variation.technique->parameters).has("radius"))
+    // In the shortest form that reads back as the same float.
     request.settings.emplace_back("radius", fmt::format("{}", float(variation.radius)));
   request.radius = variation.radius;  // of others: the technique that makes what this one reads
   request.settings.insert(request.settings.end(), variation.settings.begin(), variation.settings.end());
@@ -24,7 +23,7 @@ PlanRequest request_for(const Variation& variation) {
   return request;
 }
 
-}  // namespace
+PlanOption option_of(const Variation& variation) { return {request_for(variation)}; }
 
 RunOptions Variation::run_options() const {
   RunOptions options;

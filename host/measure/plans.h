@@ -8,6 +8,7 @@
 #include "gloam/frame.h"
 #include "gloam/plan.h"
 #include "gloam/run.h"
+#include "planner/plan_option.h"
 
 namespace gloam::bench {
 
@@ -48,6 +49,12 @@ struct Variation {
   std::string name() const { return preset.empty() ? "default" : preset; }
   RunOptions run_options() const;
 };
+
+/// What it asks a plan for.
+PlanRequest request_for(const Variation& variation);
+
+/// As an option among others: "gtao, medium, half" is its label.
+PlanOption option_of(const Variation& variation);
 
 /// The settings that mean the same for the same estimate over other layers (`over_all_layers`). The parameters of stochastic
 /// depth do not: its `samples` are depths, not sample positions.

@@ -8,6 +8,7 @@
 #include "auto/report.h"
 #include "base/lists.h"
 #include "frame/untouched.h"
+#include "planner/goal.h"
 #include "python/files.h"
 #include "python/frames.h"
 #include "python/memory.h"
@@ -21,22 +22,16 @@ namespace {
 /// What is asked for beside the request.
 struct AutoWords {
   MaskUse mask = MaskUse::measured;
-  BudgetGoal goal;
+  Goal goal;
   bool measures = false, composes = false;
   std::optional<ColorHolds> holds;
   std::optional<std::array<double, 3>> ambient;
 };
 
-std::optional<double> above_0(const py::dict& words, const char* name) {
-  const auto number = py::cast<std::optional<double>>(words[name]);
-  if (number && !(*number > 0)) throw UsageError("{} {:g} is not allowed; a number above 0 is", name, *number);
-  return number;
-}
-
 AutoWords auto_words(const py::dict& words) {
   AutoWords asked;
-  asked.goal = {above_0(words, "budget"), above_0(words, "error")};
-  if (asked.goal.ms && asked.goal.error) throw UsageError("budget and error are both given; give one of them");
+  asked.goal = goal_of(words);
+  check_one_goal(asked.goal);
   if (const auto mask = py::cast<std::optional<std::string>>(words["mask"]))
     asked.mask = value_of(*mask, "mask", mask_words);
   asked.measures = py::cast<bool>(words["measure"]);

@@ -15,8 +15,7 @@ void take(const py::dict& words, const char* name, Value& value) {
 
 PickRequest pick_request(const py::dict& words, const py::dict& reading) {
   PickRequest request{.reading = read_options(reading)};
-  request.budget = py::cast<std::optional<double>>(words["budget"]);
-  request.error = py::cast<std::optional<double>>(words["error"]);
+  request.goal = goal_of(words);
   request.radius = py::cast<std::optional<double>>(words["radius"]);
   request.seconds = py::cast<std::optional<double>>(words["seconds"]);
   request.truths = py::cast<std::vector<std::string>>(words["truths"]);

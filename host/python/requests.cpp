@@ -34,6 +34,12 @@ void take_choice(const py::dict& words, const char* name, const Choices<Value>& 
   if (has(words, name)) value = value_of(taken<std::string>(words, name), name, choices);
 }
 
+std::optional<double> above_0(const py::dict& words, const char* name) {
+  const auto number = taken<std::optional<double>>(words, name);
+  if (number && !(*number > 0)) throw UsageError("{} {:g} is not allowed; a number above 0 is", name, *number);
+  return number;
+}
+
 /// A camera JSON without a size: the camera is in pixels of the frame.
 std::string json_of(const Camera& camera) {
   nlohmann::json json = {
@@ -114,6 +120,13 @@ ReadOptions read_options(const py::dict& words) {
   if (has(words, "channels")) options.channels = taken<std::map<std::string, std::string>>(words, "channels");
   if (has(words, "as_stored")) options.as_stored = taken<bool>(words, "as_stored");
   return options;
+}
+
+Goal goal_of(const py::dict& words) {
+  const bool is_text = py::isinstance<py::str>(words["budget"]);
+  Goal goal = is_text ? time_goal(text(words, "budget")) : Goal{.ms = above_0(words, "budget")};
+  goal.error = above_0(words, "error");
+  return goal;
 }
 
 NormalConvention normal_convention(const py::dict& words) {

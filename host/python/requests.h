@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gloam/exr.h"
+#include "gloam/goal.h"
 #include "gloam/plan.h"
 #include "gloam/run.h"
 #include "python/bindings.h"
@@ -16,6 +17,8 @@ namespace gloam::python {
 PlanRequest plan_request(const py::dict& words);
 RunOptions run_options(const py::dict& words);
 ReadOptions read_options(const py::dict& words);
+/// Of the words "budget", milliseconds or a text such as "60fps", and "error". Throws UsageError for numbers that are not above 0.
+Goal goal_of(const py::dict& words);
 NormalConvention normal_convention(const py::dict& words);
 StatedDepth stated_depth(const py::dict& words);
 

@@ -66,6 +66,8 @@ void AutoStep::decide_on(AutoFrame& first) {
       lines.push_back(missed);
   computing_.goal = {};
   for (const std::string& line : lines) events_.note(line);
+  // Not of the contents: the times in it differ from run to run.
+  if (result.spent && !result.spent->why.empty()) events_.note(result.spent->why);
   contents_ += fmt::format("{}", fmt::join(lines, "; "));
 }
 

@@ -38,6 +38,18 @@ TEST_F(AutoBudget, MuchTimeBuysTheLeastError) {
     EXPECT_LT(chosen["expected_error"], effect_of(document, chosen["effect"])["change"]) << chosen;
   }
   EXPECT_GT(document["expected_error"], 0);
+  const std::string why = document["why"];
+  EXPECT_EQ(why.rfind("the most accurate within 1e+06 ms: evidence", 0), 0u) << why;
+  EXPECT_NE(why.find("; the next faster, "), std::string::npos) << why;
+}
+
+TEST_F(AutoBudget, ATimeMayBeGivenAsFramesPerSecond) {
+  const Result result = automatic({"--budget", "0.001fps"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_DOUBLE_EQ(result.json()["budget_ms"], 1e6);
+  EXPECT_EQ(result.json()["chosen"].size(), 3u);
+  const Result missed = automatic({"--budget", "1000000fps"});
+  EXPECT_NE(missed.err.find("--budget 1000000fps (0.001 ms): nothing fits"), std::string::npos) << missed.err;
 }
 
 // The planes are those of the settings that it tells.
@@ -101,6 +113,29 @@ TEST_F(AutoBudget, SettingsThatWereAskedForStand) {
   }
 }
 
+/// The table of the device has two sizes of every option, and the frame's own of what was run.
+TEST_F(AutoBudget, TheTableOfSpeedsIsKeptAndMadeAnewWhereItIsOld) {
+  const std::map<std::string, std::string> environment = {{"GLOAM_CACHE_DIR", path("cache")}};
+  const Arguments words = {"auto", path("frame.exr"), "-o",   path("out.exr"), "--budget", "1000s", "--preset",
+                           "low",  "--resolution",    "half", "--json",        "-"};
+  const auto table = [&] {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(path("cache") / fs::path("speeds"))) files.push_back(entry.path());
+    EXPECT_EQ(files.size(), 1u);
+    return files.front();
+  };
+  const Result first = gloam(words, environment);
+  ASSERT_EQ(first.status, 0) << first.err;
+  const Json times = Json::parse(slurp(table())).at("times");
+  EXPECT_GE(times.size(), 4u) << times;
+  for (const auto& [label, sizes] : times.items()) EXPECT_GE(sizes.size(), 2u) << label << sizes;
+  std::ofstream(table()) << "{\"ns_per_pixel\": {\"evidence, low, half\": 1}}";
+  const Result again = gloam(words, environment);
+  EXPECT_EQ(again.status, 0);
+  EXPECT_EQ(again.err, first.err);
+  EXPECT_EQ(Json::parse(slurp(table())).at("times").size(), times.size());
+}
+
 TEST_F(AutoBudget, TwoEyesAreWeighedTogether) {
   ASSERT_EQ(gloam({"capture", "gallery", "-o", path("eyes.exr"), "--size", "128x72", "--stereo", "0.065"}).status, 0);
   const Result result = automatic({"--budget", "1000s"}, "eyes.exr");
@@ -115,7 +150,7 @@ TEST_F(AutoBudget, AShotTakesOverWhatTheFirstFrameChooses) {
       gloam({"capture", "gallery", "-o", path("s.####.exr"), "--shot", "walk", "--frames", "1-3", "--size", "96x54"})
           .status,
       0);
-  const Result result = gloam({"auto", path("s.####.exr"), "-o", path("o.####.exr"), "--budget", "1000s", "--radius",
+  const Result result = gloam({"auto", path("s.####.exr"), "-o", path("o.####.exr"), "--budget", "0.001fps", "--radius",
                                "0.5", "--preset", "low", "--resolution", "half", "--float"});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_NE(result.err.find("low, half in all frames, as chosen on the first"), std::string::npos) << result.err;
@@ -151,6 +186,8 @@ TEST_F(AutoBudget, WhatIsWrongIsSaidInOneLine) {
   EXPECT_NE(message({"--budget", "30"}).find("write a number with its unit, such as 30ms"), std::string::npos);
   EXPECT_NE(message({"--budget", "-3ms"}).find("--budget"), std::string::npos);
   EXPECT_NE(message({"--budget", "ms"}).find("--budget"), std::string::npos);
+  EXPECT_NE(message({"--budget", "60Hz"}).find("--budget 60Hz is not allowed; write a number with its unit"),
+            std::string::npos);
   // The frame does not say how much of its colour is ambient light, and has no glossy surfaces.
   ASSERT_EQ(gloam({"capture", "gallery", "-o", path("matte.exr"), "--size", "64x36", "--planes", "normal,color,albedo"})
                 .status,

@@ -187,6 +187,8 @@ TEST_F(PickShot, TheCalmestWithinTheBudgetIsPicked) {
     ASSERT_EQ(result.status, 0) << result.err;
     const Json document = result.json();
     ASSERT_EQ(document["settings"].size(), 8u) << "four presets, alone and over time";
+    EXPECT_EQ(document["why"].get<std::string>().rfind("the most accurate within 1e+06 ms: gtao, ", 0), 0u)
+        << document["why"];
     for (const Json& setting : document["settings"]) EXPECT_LE(double(document[by]), double(setting[by]));
   }
   // The command that it prints makes the shot.
@@ -217,7 +219,7 @@ TEST_F(PickShot, IsRefusedInOneLine) {
     EXPECT_EQ(result.lines_of_error(), 1) << result.err;
     EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
   };
-  refused(pick({"--error", "0.00001"}), 1, "no setting has RMSE 1e-05 or less; the nearest is gtao");
+  refused(pick({"--error", "0.00001"}), 1, "--error 1e-05: nothing comes that near to the truth; the nearest is gtao");
   refused(pick({"--budget", "0.0001ms"}), 1, "the fastest is gtao");
   refused(pick({"--budget", "1s", "--by", "flip"}), 2, "--by flip");
   refused(pick({"--budget", "1s", "--frames", "2"}), 2, "is one frame");

@@ -34,6 +34,11 @@ TEST_F(Cli, PickWithinABudgetIsTheMostAccurateAndRuns) {
   for (const Json& finalist : document["finalists"]) EXPECT_GE(finalist["rmse"], document["rmse"]);
   EXPECT_EQ(document["technique"], "gtao");  // hbao+ fades occluders, and so is far from the truth (docs/accuracy.md)
   EXPECT_EQ(document["error_to"], "the truth");
+  const std::string why = document["why"];
+  const std::string best =
+      fmt::format("gtao, {}, {}", document["preset"].get<std::string>(), document["resolution"].get<std::string>());
+  EXPECT_EQ(why.rfind("the most accurate within 100000 ms: " + best + " with ", 0), 0u) << why;
+  EXPECT_NE(why.find("; the next faster, "), std::string::npos) << why;
   const fs::path out = folder / "ao.exr";
   ASSERT_EQ(gloam(arguments_of(document["command"], out)).status, 0);
   const Json compared = gloam({"compare", out.string(), loggia_truth, "--json", "-"}).json();
@@ -48,6 +53,22 @@ TEST_F(Cli, PickWithinAnErrorIsTheCheapest) {
       EXPECT_GE(finalist["ms"], document["ms"]);
     }
   }
+}
+
+TEST_F(Cli, PickSaysWhyAndWhatItDidNotTry) {
+  const Result result = gloam({"pick", loggia, "--truth", loggia_truth, "--rounds", "1", "--techniques", "gtao,dp-gtao",
+                               "--time", "1h", "--error", "0.15"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  std::istringstream lines(result.out);
+  int whys = 0, not_tried = 0;
+  for (std::string line; std::getline(lines, line);) {
+    whys += line.rfind("the fastest within RMSE 0.15: gtao, ", 0) == 0;
+    if (line.rfind("not tried: ", 0) != 0) continue;
+    ++not_tried;
+    EXPECT_NE(line.find("settings of dp-gtao, which cannot run here"), std::string::npos) << line;
+  }
+  EXPECT_EQ(whys, 1) << result.out;
+  EXPECT_EQ(not_tried, 1) << result.out;
 }
 
 TEST_F(Cli, PickMeasuresOnTheFirstViewWhatMakesNoOther) {
@@ -94,13 +115,17 @@ TEST_F(Cli, PickRefusesInOneLine) {
     EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
   };
   expect_refused(pick({}), "--budget");
-  expect_refused(pick({"--budget", "20ms", "--error", "0.1"}), "either");
+  expect_refused(pick({"--budget", "20ms", "--error", "0.1"}), "give one of them");
   expect_refused(pick({"--budget", "3parsecs"}), "3parsecs");
   expect_refused(pick({"--error", "-1"}), "--error");
   expect_refused({"pick", loggia, "--budget", "20ms", "--techniques", "bilateral"}, "filter");
   const Result fast = gloam(pick({"--budget", "0.0001ms"}));
   EXPECT_EQ(fast.status, 1);
   EXPECT_NE(fast.err.find("nothing is that fast"), std::string::npos) << fast.err;
+  const Result rate = gloam(pick({"--budget", "1000000fps"}));
+  EXPECT_EQ(rate.status, 1);
+  EXPECT_NE(rate.err.find("--budget 1000000fps (0.001 ms): nothing is that fast"), std::string::npos) << rate.err;
+  expect_refused(pick({"--budget", "fps"}), "such as 60fps");
   const Result near = gloam(pick({"--error", "0.0001"}));
   EXPECT_EQ(near.status, 1);
   EXPECT_NE(near.err.find("nothing comes that near"), std::string::npos) << near.err;

@@ -178,7 +178,11 @@ TEST_F(EveryCommand, HasItsKindOfFlagsTold) {
       {{"pick", "--rounds", "-1"}, "gloam: --rounds -1 is not allowed; a whole number from 1 to 10000 is\n"},
       {{"pick", "--budget", "3d"},
        "gloam: --budget 3d is not allowed; write a number with its unit, such as 30ms, 500us, 90s, 2m30s or 1h, above "
-       "0\n"},
+       "0, or frames per second, such as 60fps\n"},
+      {{"auto", "--budget", "0fps"},
+       "gloam: --budget 0fps is not allowed; write a number with its unit, such as 30ms, 500us, 90s, 2m30s or 1h, "
+       "above "
+       "0, or frames per second, such as 60fps\n"},
       {{"reference", "--radius", "nan"},
        "gloam: --radius nan is not allowed; a number from 1e-30 to 1e+30, or inf, is\n"},
       {{"auto", "--mask", "measure"},

@@ -81,11 +81,19 @@ def test_a_goal_chooses(file):
     assert result.facts["chosen"] == []  # nothing has to be computed for an error that large
 
 
+def test_a_budget_may_be_frames_per_second(file):
+    result = gloam.auto(file, budget="0.001fps", radius=0.5, preset="low", resolution="full")
+    assert result.facts["budget_ms"] == pytest.approx(1e6) and result.facts["goal_met"] is True
+    assert result.facts["why"].startswith("the most accurate within 1e+06 ms, for 0.001fps: ")
+
+
 @pytest.mark.parametrize("keywords, words", [
     ({"budget": 20.0}, "colour"),
     ({"composite": True}, "no colour"),
     ({"budget": 20.0, "error": 0.1}, "give one of them"),
     ({"budget": 0}, "above 0"),
+    ({"budget": "60hz"}, "budget 60hz is not allowed.*60fps"),
+    ({"budget": [20]}, "budget is of type list"),
     ({"mask": "sometimes"}, "mask"),
     ({"presett": "low"}, "preset"),
 ])
@@ -112,8 +120,9 @@ def test_pick_gives_what_the_command_gives(file, command, tmp_path):
 
 @pytest.mark.parametrize("keywords, words", [
     ({}, "give either"),
-    ({"budget": 20.0, "error": 0.1}, "give either"),
+    ({"budget": 20.0, "error": 0.1}, "give one of them"),
     ({"budget": 0}, "above 0"),
+    ({"budget": "20"}, "budget 20 is not allowed.*60fps"),
     ({"budget": 20.0, "by": "looks"}, "looks"),
     ({"budget": 20.0, "techniques": ["gtoa"]}, "gtao"),
     ({"budget": 20.0, "fof": 60}, "fov"),

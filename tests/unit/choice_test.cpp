@@ -34,30 +34,30 @@ TEST(Choice, ErrorsOfWhatIsComputedAndOfWhatIsLeftOutAddAsSquares) {
 
 TEST(Choice, TheLeastErrorWithinATime) {
   const ChoiceProblem problem = two_effects();
-  EXPECT_EQ(best_within_time(problem, 0)->options, (Options{left_out, left_out}));
-  EXPECT_EQ(best_within_time(problem, 2)->options, (Options{0, left_out}));
+  EXPECT_EQ(best_within(problem, {.ms = 0})->options, (Options{left_out, left_out}));
+  EXPECT_EQ(best_within(problem, {.ms = 2})->options, (Options{0, left_out}));
   // The second effect changes more than the first.
-  EXPECT_EQ(best_within_time(problem, 4)->options, (Options{left_out, 0}));
-  EXPECT_EQ(best_within_time(problem, 6)->options, (Options{0, 0}));
-  EXPECT_EQ(best_within_time(problem, 14)->options, (Options{1, 0}));
-  EXPECT_EQ(best_within_time(problem, 1000)->options, (Options{1, 1}));
-  EXPECT_EQ(most_accurate(problem).options, (Options{1, 1}));
-  EXPECT_FALSE(best_within_time(problem, -1));
+  EXPECT_EQ(best_within(problem, {.ms = 4})->options, (Options{left_out, 0}));
+  EXPECT_EQ(best_within(problem, {.ms = 6})->options, (Options{0, 0}));
+  EXPECT_EQ(best_within(problem, {.ms = 14})->options, (Options{1, 0}));
+  EXPECT_EQ(best_within(problem, {.ms = 1000})->options, (Options{1, 1}));
+  EXPECT_EQ(nearest_miss(problem, {.error = 0}).options, (Options{1, 1}));
+  EXPECT_FALSE(best_within(problem, {.ms = -1}));
 }
 
 TEST(Choice, TheLeastTimeWithinAnError) {
   const ChoiceProblem problem = two_effects();
-  EXPECT_EQ(fastest_within_error(problem, 5)->options, (Options{left_out, left_out}));
-  EXPECT_EQ(fastest_within_error(problem, 2)->options, (Options{0, 0}));
-  EXPECT_EQ(fastest_within_error(problem, 1.6)->options, (Options{1, 0}));
-  EXPECT_EQ(fastest_within_error(problem, 0.31)->options, (Options{1, 1}));
-  EXPECT_FALSE(fastest_within_error(problem, 0.29));
+  EXPECT_EQ(best_within(problem, {.error = 5})->options, (Options{left_out, left_out}));
+  EXPECT_EQ(best_within(problem, {.error = 2})->options, (Options{0, 0}));
+  EXPECT_EQ(best_within(problem, {.error = 1.6})->options, (Options{1, 0}));
+  EXPECT_EQ(best_within(problem, {.error = 0.31})->options, (Options{1, 1}));
+  EXPECT_FALSE(best_within(problem, {.error = 0.29}));
 }
 
 TEST(Choice, OfEqualErrorsTheFaster) {
   ChoiceProblem problem = two_effects();
   problem.effects[0] = {{{"ao"}, 9, 0.5, 0.5}, {{"ao"}, 2, 0.5, 0.5}};
-  EXPECT_EQ(best_within_time(problem, 100)->options[0], 1);
+  EXPECT_EQ(best_within(problem, {.ms = 100})->options[0], 1);
 }
 
 // Leaving both out has nearly the least error, since one darkens what the other brightens.
@@ -69,7 +69,7 @@ TEST(Choice, LuckDecidesNothing) {
     problem.loss_with = [=](const std::vector<std::string>& planes) {
       return planes.empty() ? of_none : planes.size() == 2 ? 1.0 : 2.0;
     };
-    const Choice best = *best_within_time(problem, 10);
+    const Choice best = *best_within(problem, {.ms = 10});
     EXPECT_EQ(best.options, of_none == 0.98 ? (Options{0, 0}) : (Options{left_out, left_out})) << of_none;
   }
   EXPECT_DOUBLE_EQ(figures_of(problem, {0, left_out}).without_luck, std::sqrt(1.25));
@@ -78,7 +78,7 @@ TEST(Choice, LuckDecidesNothing) {
 TEST(Choice, WithoutEffectsThereIsNothingToChoose) {
   ChoiceProblem problem;
   problem.loss_with = [](const std::vector<std::string>&) { return 0.0; };
-  EXPECT_EQ(best_within_time(problem, 0)->error, 0);
+  EXPECT_EQ(best_within(problem, {.ms = 0})->error, 0);
 }
 
 }  // namespace

@@ -6,11 +6,11 @@
 
 #include "auto/mask_words.h"
 #include "cli/auto/command.h"
+#include "cli/flags/budget.h"
 #include "cli/flags/given_flags.h"
 #include "cli/flags/memory.h"
 #include "cli/flags/radius.h"
 #include "cli/flags/result_name.h"
-#include "cli/flags/time_budget.h"
 #include "cli/shot/shot.h"
 #include "gloam/error.h"
 #include "gloam/margin.h"
@@ -169,10 +169,9 @@ void add_auto(CLI::App& app) {
       "never time nothing; of a shot: never");
   command->add_flag("--measure", flags->measure,
                     "also compute everything everywhere, and tell what that takes; 3 timed runs at least");
-  CLI::Option* budget = add_parsed(*command, "--budget", flags->goal.ms, parse_budget,
-                                   "device time for all effects and for looking, such as 30ms: effects, presets and "
+  CLI::Option* budget = add_budget(*command, flags->goal,
+                                   "device time for all effects and for looking, 30ms or 60fps: effects, presets and "
                                    "resolutions are chosen for the least error of the picture");
-  budget->type_name("TIME");
   add_number(*command, "--error", flags->goal.error, {1e-9, 1e9},
              "RMS error of the picture (--composite): effects, presets and resolutions are chosen for the least time")
       ->excludes(budget);
@@ -192,6 +191,7 @@ void add_auto(CLI::App& app) {
       "  gloam auto frame.exr -o out.exr\n"
       "  gloam auto frame.exr -o out.exr --explain why.png --measure --repeat 9\n"
       "  gloam auto frame.exr -o out.exr --budget 30ms\n"
+      "  gloam auto 'shot.####.exr' -o 'out.####.exr' --budget 60fps\n"
       "  gloam auto frame.exr --composite picture.exr\n"
       "  gloam auto 'shot.####.exr' -o 'out.####.exr' --frames 1-48 --radius 0.5\n"
       "Parameters are set with --set NAME=VALUE (gloam list techniques).");

@@ -17,7 +17,7 @@ namespace gloam::cli {
 struct AutoCommand {
   std::string out, explain, compression = "zip";
   std::optional<MaskUse> mask;
-  BudgetGoal goal;
+  Goal goal;
   bool half = false, measure = false;
   bool is_out_made = false;  ///< `out` was made of the frame's name
   FrameArguments frame;
@@ -35,7 +35,7 @@ struct AutoCommand {
 void run_auto_on_shot(const AutoCommand& flags);
 
 /// The table of effects, and for a budget a line of what was spent.
-void print(const AutoResult& result, const BudgetGoal& goal);
+void print(const AutoResult& result, const Goal& goal);
 
 /// The effects and their refinements, on one view. Points to planes of `outcomes`.
 std::vector<Explanation> explanations_of(const std::vector<Outcome>& outcomes, const std::string& view);

@@ -52,7 +52,7 @@ std::vector<Explanation> explanations_of(const std::vector<Outcome>& outcomes, c
   return all;
 }
 
-void print(const AutoResult& result, const BudgetGoal& goal) {
+void print(const AutoResult& result, const Goal& goal) {
   std::vector<std::vector<std::string>> rows = {
       {"effect", "wanted", "where", "runs", "ms", "masked", "everywhere", "saved", "lost", "why"}};
   for (const Outcome& o : result.outcomes) {
@@ -69,6 +69,7 @@ void print(const AutoResult& result, const BudgetGoal& goal) {
   }
   print_table(rows, rows.front().size());
   fmt::print("{}\n", totals_in_words(result, goal));
+  if (result.spent && !result.spent->why.empty()) fmt::print("{}\n", result.spent->why);
 }
 
 }  // namespace gloam::cli

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <map>
 #include <memory>
 
 #include "base/statistics.h"
@@ -15,10 +14,11 @@
 #include "choose/shot.h"
 #include "cli/bench/sequence.h"
 #include "cli/bench/subjects.h"
+#include "cli/flags/budget.h"
 #include "cli/flags/shot_flags.h"
-#include "cli/flags/time_budget.h"
 #include "gloam/error.h"
 #include "measure/effects.h"
+#include "planner/goal.h"
 
 namespace gloam::cli {
 namespace {
@@ -29,7 +29,8 @@ struct PickCommand : DeviceFlags {
   std::vector<std::string> truths;
   std::string frame, techniques;
   VariantFlags variant;
-  std::optional<double> budget, error, radius;  ///< budget: milliseconds
+  Goal goal;
+  std::optional<double> radius;
   PickBy by = PickBy::rmse;
   int rays = 256, rounds = 9;
   double time = 60;  ///< seconds
@@ -49,10 +50,8 @@ std::vector<std::string> named_techniques(const PickCommand& flags) {
 
 /// Without techniques.
 PickOptions options_of(const PickCommand& flags) {
-  if (flags.budget.has_value() == flags.error.has_value())
-    throw UsageError("pick: give either --budget (a time, such as 20ms) or --error (such as 0.02)");
-  return {
-      .budget = flags.budget, .error = flags.error, .by = flags.by, .rounds = flags.rounds, .progress = show_status};
+  check_has_goal(flags.goal, "pick");
+  return {.goal = flags.goal, .by = flags.by, .rounds = flags.rounds, .progress = show_status};
 }
 
 std::string run_line(const PickCommand& flags, const Variation& v) {
@@ -68,19 +67,10 @@ std::string run_line(const PickCommand& flags, const Variation& v) {
   return line + flags.as_text() + reading_text(*flags.app);
 }
 
-/// "medium and high of gtao: low takes 31 ms already; the time was over for 12 settings (--time 5m, --all)".
-void print_left_out(const Picked& picked) {
-  std::map<std::string, std::vector<std::string>> slow;
-  size_t out_of_time = 0;
-  for (const Skipped& s : picked.left_out) {
-    if (s.why == time_was_over)
-      ++out_of_time;
-    else
-      slow[s.why].push_back(s.preset);
-  }
-  for (const auto& [why, presets] : slow) fmt::print("left out {}: {}\n", fmt::join(presets, "; "), printable(why));
-  if (out_of_time > 0)
-    fmt::print("left out {} settings for want of time: --time 5m tries more, --all everything\n", out_of_time);
+/// Why it is that one, and what was not tried.
+void print_why(const std::string& why, const std::string& not_tried) {
+  fmt::print("{}\n", printable(why));
+  if (!not_tried.empty()) fmt::print("{}\n", printable(not_tried));
 }
 
 void print(const Picked& picked, PickBy by, const DeviceInfo& device) {
@@ -97,7 +87,7 @@ void print(const Picked& picked, PickBy by, const DeviceInfo& device) {
   print_table(rows, 4);
   fmt::print("{} of {} settings that were tried; {}; errors to {}; {} decides (--by)\n", picked.finalists.size(),
              picked.tried, printable(device.name), printable(picked.truth), name_of(by));
-  print_left_out(picked);
+  print_why(picked.why, not_tried_in_words(picked.left_out, picked.skipped));
 }
 
 SceneOptions truths_in(const std::filesystem::path& folder, const PickCommand& flags) {
@@ -156,10 +146,11 @@ void pick_shot(const PickCommand& flags, const PickOptions& options, const std::
   measuring.progress = options.progress;
   MeasuredShot shot = measure_own_shot(sequence, measuring, scene, left_out, device, {{"--json", flags.json.file()}});
   std::vector<SequenceRow>& rows = shot.measured.rows;
-  rank(rows, options);
+  const std::string why = rank(rows, options);
   const std::string command = run_line(flags, rows.front().variation);
   Json document = {{"command", command}};
   document.update(entry_of(rows.front()));
+  document["why"] = why;
   document["device"] = device.info().name;
   document["by"] = word_for(options.by, pick_figures);
   document["settings"] = Json::array();
@@ -170,6 +161,7 @@ void pick_shot(const PickCommand& flags, const PickOptions& options, const std::
   flags.json.write(document);
   if (flags.json.only_json()) return;
   print(shot, options, device.info());
+  print_why(why, not_tried_in_words({}, shot.measured.skipped));
   fmt::print("{}\n", printable(command));
 }
 
@@ -223,9 +215,8 @@ void add_pick(CLI::App& app) {
   add_text(*command, "frame", flags->frame, "FRAME.exr", "EXR file")->required();
   add_frames(*command, flags->choice);
   add_missing_without_hold(*command, flags->choice);
-  add_parsed(*command, "--budget", flags->budget, parse_budget, "time for the whole of the effect, its filter included",
-             "20ms");
-  add_number(*command, "--error", flags->error, {0, 1},
+  add_budget(*command, flags->goal, "time for the whole of the effect, its filter included: 20ms, or 60fps");
+  add_number(*command, "--error", flags->goal.error, {0, 1},
              "RMSE to the truth; with --by ssim 1 - SSIM, with --by flip FLIP", "ERROR");
   add_choice(*command, "--by", flags->by, pick_figures,
              "what decides which image is nearer; default rmse; ssim minds noise and lost edges, flip what an eye "
@@ -259,6 +250,7 @@ void add_pick(CLI::App& app) {
       "that is too slow already rules out, and what does not fit in the time.\n"
       "Examples:\n"
       "  gloam pick frame.exr --budget 20ms --truth ao_ref.exr\n"
+      "  gloam pick frame.exr --budget 60fps --truth ao_ref.exr\n"
       "  gloam pick frame.exr --error 0.1 --truth ao_ref.exr --json -\n"
       "  gloam pick 'shot.####.exr' --truth 'truth.####.exr' --frames 1-8 --budget 20ms --by flicker");
   command->callback([flags] { pick_command(*flags); });

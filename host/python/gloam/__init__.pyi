@@ -234,14 +234,14 @@ def enqueue(technique: str, planes: Dict[str, Union[DevicePlane, List[DevicePlan
             results: Dict[str, Union[DevicePlane, List[Optional[DevicePlane]]]], *,
             size: Tuple[int, int], camera: Union[Camera, List[Camera]], device: Device, wait_for: _Sequence[Any] = (),
             settings: Optional[Dict[str, Setting]] = None, **keywords: Any) -> Enqueued: ...
-def auto(frame: Union[Frame, Path, _Sequence[Path], None] = None, *, budget: Optional[float] = None, error: Optional[float] = None,
+def auto(frame: Union[Frame, Path, _Sequence[Path], None] = None, *, budget: Union[float, str, None] = None, error: Optional[float] = None,
          mask: Optional[str] = None, measure: bool = False, composite: bool = False, color_holds: Optional[str] = None,
          ambient: Optional[Point] = None, camera: Union[Camera, List[Camera], Path, None] = None, fov: Optional[float] = None,
          views: Union[str, List[str], None] = None, device: Union[Device, str, None] = None,
          settings: Optional[Dict[str, Setting]] = None, depth_is: Optional[str] = None, near: Optional[float] = None,
          far: Optional[float] = None, background: Optional[float] = None, depth_scale: Optional[float] = None, depth_offset: Optional[float] = None, normals_are: Optional[str] = None,
          normal_space: Optional[str] = None, normal_range: Optional[str] = None, normal_axes: Optional[str] = None, **keywords: Any) -> AutoResult: ...
-def pick(frame: Union[Frame, Path, None] = None, *, budget: Optional[float] = None, error: Optional[float] = None, by: str = "rmse",
+def pick(frame: Union[Frame, Path, None] = None, *, budget: Union[float, str, None] = None, error: Optional[float] = None, by: str = "rmse",
          truth: Union[Frame, Path, _Sequence[Union[Frame, Path]], None] = None, techniques: Union[str, List[str], None] = None,
          radius: Optional[float] = None, rays: int = 256, rounds: int = 9, time: Optional[float] = 60,
          device: Union[Device, str, None] = None, **reading: Any) -> Dict[str, Any]: ...

@@ -19,7 +19,7 @@ class AutoResult(Result):
     effects: a list of dicts, one for each effect, as `gloam auto --json` writes them: "name", "technique", "wanted", "everywhere", "why",
     "share_of_tiles", "runs" (the technique computed, or None), "ms", "ms_everywhere", "ms_masked", "masked", "change" and "lost" (RMS of
     the picture, None where not known) and "refinements".  facts: all that the command writes, a dict, with the effects in it, "classify_ms",
-    "glance_ms", "total_ms", "device", with a goal "chosen", "expected_error" and "goal_met", and the radius.
+    "glance_ms", "total_ms", "device", with a goal "chosen", "expected_error", "goal_met" and "why", and the radius.
     composite: the picture, (height, width, 3), scene-linear, where it was asked for; of several views a list; else None.
     """
 
@@ -41,7 +41,7 @@ def auto(frame=None, *, budget=None, error=None, mask=None, measure=False, compo
     What a frame does not call for is given as if computed: AO of 1, reflections of 0.
     frame, planes by keyword, camera, fov, views, device, depth_is, near, far, background, normals_are, normal_space, normal_range, normal_axes: as for gloam.run. Of a path only the
         planes are read that effects may need.
-    budget: device time for all effects and for looking, milliseconds above 0: effects, presets and resolutions are chosen for the least error of
+    budget: device time for all effects and for looking, milliseconds above 0, or a text such as "30ms" or "60fps": effects, presets and resolutions are chosen for the least error of
         the picture.  error: instead, the RMS error of the picture, above 0; chosen is what takes the least time. Both need the plane color.
     mask: whether an effect is computed only where the frame calls for it: "measured" (both ways are timed; the default), "always" or "never".
         For the frames of a shot give "never", as the command does by default: masks that come and go from frame to frame would flicker.
@@ -61,7 +61,7 @@ def auto(frame=None, *, budget=None, error=None, mask=None, measure=False, compo
     planes, parameters = _run.divided(keywords)
     _run.check_names(parameters, _OPTIONS + _NAMED)
     words, run_words = _run.shared_words(parameters, settings, options)
-    more = {"budget": _words.number("budget", budget), "error": _words.number("error", error), "mask": _words.text("mask", mask),
+    more = {"budget": _words.budget("budget", budget), "error": _words.number("error", error), "mask": _words.text("mask", mask),
             "measure": bool(measure), "composite": bool(composite), "color_holds": _words.text("color_holds", color_holds),
             "ambient": _words.point("ambient", ambient)}
     made, is_own, several = _run.frame_for(frame, planes, camera, fov, views, surfaces,

@@ -37,7 +37,7 @@ def pick(frame=None, *, budget=None, error=None, by="rmse", truth=None, techniqu
          **reading):
     """Tries presets of techniques at full and at half resolution on a frame, and returns the best within a bound as a dict.
 
-    frame: a path, a gloam.Frame, or instead planes by keyword with a camera, as for gloam.run.  budget: milliseconds on the device for the whole of the effect, its filter included: the most accurate
+    frame: a path, a gloam.Frame, or instead planes by keyword with a camera, as for gloam.run.  budget: milliseconds on the device, or a text such as "20ms" or "60fps", for the whole of the effect, its filter included: the most accurate
         setting within it is picked.  error: instead, a bound on the figure that decides; the cheapest setting within it is picked.
     by: what decides which image is nearer: "rmse", "ssim" (1 - SSIM) or "flip".
     truth: what errors are to: a path, a result of gloam.run or a gloam.Frame, as gloam.reference makes it, or a list of them, one for each view; default: traced where
@@ -47,7 +47,7 @@ def pick(frame=None, *, budget=None, error=None, by="rmse", truth=None, techniqu
     rounds: each times every finalist once, in turn.  time: seconds for everything but tracing, the likeliest settings first; None: for all.
     device, camera, fov, depth_is, near, far, background, views, channels, normals_are, normal_space, normal_range, normal_axes: as for gloam.read, of a path.
 
-    The keys are those of `gloam pick --json`: "technique", "preset", "resolution", "ms", "rmse", "ssim", "device", "error_to", "by",
+    The keys are those of `gloam pick --json`: "technique", "preset", "resolution", "ms", "rmse", "ssim", "why" (a sentence), "device", "error_to", "by",
     "finalists" (a list of dicts), "skipped", "left_out", "radius", "radius_from" and "notes".
     Raises gloam.Error that names the nearest miss if nothing is within the bound, gloam.UsageError for names and values.
     """
@@ -55,11 +55,11 @@ def pick(frame=None, *, budget=None, error=None, by="rmse", truth=None, techniqu
     for name in reading:
         if name not in _READING:
             raise _words.refusal(f"no keyword '{name}'{_gloam.suggestion(name, list(_READING))}; there are {_gloam.enumerate(list(_READING))}, and planes")
-    words = {"budget": _words.number("budget", budget), "error": _words.number("error", error), "by": _words.text("by", by),
+    words = {"budget": _words.budget("budget", budget), "error": _words.number("error", error), "by": _words.text("by", by),
              "techniques": _words.names("techniques", techniques), "radius": _words.number("radius", radius),
              "rays": _words.integer("rays", rays), "rounds": _words.integer("rounds", rounds), "seconds": _words.number("time", time)}
     for name in ("budget", "error", "radius", "rays", "rounds", "seconds"):
-        if words[name] is not None and not words[name] > 0:
+        if words[name] is not None and not isinstance(words[name], str) and not words[name] > 0:
             raise _words.refusal(f"{name} {words[name]:g} is not allowed; a number above 0 is")
     own_notes = []
     if frame is None or planes:

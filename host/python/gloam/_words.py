@@ -86,6 +86,15 @@ def number(name, value):
     _refuse(name, value, "a number")
 
 
+def budget(name, value):
+    """Milliseconds, or a time in words."""
+    if isinstance(value, str):
+        return text(name, value)
+    if value is None or isinstance(value, (int, float, numpy.integer, numpy.floating)):
+        return number(name, value)
+    _refuse(name, value, "a number of milliseconds, or a text such as '60fps',")
+
+
 def point(name, value):
     if value is None:
         return None

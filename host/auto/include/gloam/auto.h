@@ -12,6 +12,7 @@
 #include "gloam/composition.h"
 #include "gloam/device.h"
 #include "gloam/frame.h"
+#include "gloam/goal.h"
 #include "gloam/plan.h"
 #include "gloam/radius.h"
 #include "gloam/run.h"
@@ -43,13 +44,6 @@ struct Decision {
 /// Whether an effect is computed through its mask, if the decision has one, or everywhere: as stated, or whichever is faster.
 enum class MaskUse { measured, always, never };
 
-/// One of both is given, or none: then there is no budget.
-struct BudgetGoal {
-  std::optional<double> ms;     ///< device time, the glance included
-  std::optional<double> error;  ///< expected RMS error of the picture
-  explicit operator bool() const { return ms || error; }
-};
-
 struct Spent {
   double expected_error = 0;  ///< RMS of the picture
   double glance_ms = 0;       ///< of looking: probes for masks, and the glance
@@ -57,6 +51,7 @@ struct Spent {
   bool is_missed = false;
   double cheapest_ms = 0;  ///< of the fastest option of any effect, the glance included
   std::string cheapest;    ///< the effect and the option
+  std::string why;         ///< why these options were chosen, in a sentence
 };
 
 /// An effect from its probe to its planes.
@@ -131,7 +126,9 @@ struct AutoSettings {
   bool measures = false;  ///< everything is also computed everywhere, and timed
   AutoPurpose purpose = {};
   RadiusSource radius_from = RadiusSource::frame;
-  BudgetGoal goal = {};  ///< empty: effects are computed at the preset and the resolution asked for
+  /// Device time, that of looking included, or an expected RMS error of the picture; none: effects are computed at the preset and the
+  /// resolution asked for.
+  Goal goal = {};
   /// If set, nothing is weighed on the frame: effects that are not among these are decided by their masks alone.
   std::optional<FixedEffects> fixed = {};
   std::function<void(int done, int of)> measuring = {};  ///< progress of the table of speeds, made once on a device
@@ -169,7 +166,7 @@ void judge(AutoPlan& planned, const std::vector<std::string>& assumed, const Pla
            const AutoPurpose& purpose);
 
 /// Throws UsageError or Error for a frame that effects cannot be weighed on. No goal: does nothing.
-void check_goal(const BudgetGoal& goal, const AutoPlan& planned);
+void check_goal(const Goal& goal, const AutoPlan& planned);
 
 /// All effects take this radius where none is asked for.
 void set_radius(AutoPlan& planned, std::optional<double> radius);
@@ -192,10 +189,10 @@ AutoResult compute_effects(AutoPlan& planned, const AutoSettings& settings, cons
 // --- In words.
 
 /// One line where a goal was missed; empty if it was not.
-std::string note_on_goal(const Spent& spent, const BudgetGoal& goal);
+std::string note_on_goal(const Spent& spent, const Goal& goal);
 
 /// JSON as `gloam auto --json` writes it: "effects", "classify_ms", "glance_ms", "total_ms", "device"; with a goal also "chosen",
-/// "budget_ms" or "error_goal", "expected_error" and "goal_met".
-std::string json_of(const AutoResult& result, const BudgetGoal& goal, const DeviceInfo& device);
+/// "budget_ms" or "error_goal", "expected_error", "goal_met" and "why".
+std::string json_of(const AutoResult& result, const Goal& goal, const DeviceInfo& device);
 
 }  // namespace gloam

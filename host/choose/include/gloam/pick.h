@@ -8,16 +8,14 @@
 
 #include "gloam/device.h"
 #include "gloam/exr.h"
+#include "gloam/goal.h"
 #include "gloam/radius.h"
 
 namespace gloam {
 
 struct PickRequest {
-  /// Milliseconds on the device, the filter included: the most accurate setting within it is picked.
-  std::optional<double> budget;
-  /// Instead: a bound on the figure that decides; the cheapest setting within it is picked.
-  std::optional<double> error;
-  std::string by = "rmse";              ///< the figure: "rmse" to the truth, "ssim" (1 - SSIM) or "flip"
+  Goal goal;                ///< time on the device, the filter included, or a bound on the figure that decides
+  std::string by = "rmse";  ///< the figure: "rmse" to the truth, "ssim" (1 - SSIM) or "flip"
   std::vector<std::string> techniques;  ///< these only; empty: all that make the truth's effect
   /// Files, one for all views or one each; none: traced where the frame shows a built-in scene, else a converged estimate stands in.
   std::vector<std::string> truths;
@@ -39,6 +37,8 @@ struct PickedSetting {
 struct PickResult {
   std::vector<PickedSetting> finalists;  ///< sorted by time
   size_t best = 0;                       ///< of the finalists
+  std::string why;                       ///< why it is the best, in a sentence
+  std::string not_tried;                 ///< what was not tried, and why, in a sentence; empty: nothing
   std::string error_to;                  ///< what errors are to: "the truth", or its stand-in
   bool has_truth = true;                 ///< it is no stand-in
   Radius radius;                         ///< of all settings
