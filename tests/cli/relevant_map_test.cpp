@@ -1,4 +1,4 @@
-// Maps of relevant surfaces: gloam capture makes those of gloam run stochastic-depth.
+// Maps of relevant surfaces: gloam capture makes those of gloam run stochastic-depth, and what such a map does not serve is refused.
 #include <cmath>
 
 #include "cli/gloam_process.h"
@@ -19,6 +19,13 @@ class RelevantMap : public Cli {
     const Result result = gloam(arguments);
     EXPECT_EQ(result.status, 0) << result.err;
     return result;
+  }
+
+  void refused(const Arguments& arguments, const std::vector<std::string>& says) const {
+    const Result result = gloam(arguments);
+    EXPECT_EQ(result.status, 2) << result.err;
+    EXPECT_EQ(result.lines_of_error(), 1) << result.err;
+    for (const std::string& words : says) EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
   }
 
   Frame map_in(const std::string& name) const {
@@ -43,6 +50,17 @@ class RelevantMap : public Cli {
     EXPECT_GT(held_in(captured), 0);
     EXPECT_LT(held_in(captured), held_in(hidden)) << "something is left out";
     EXPECT_TRUE(same_bits(captured, made));
+  }
+
+  /// The depth and normals of one file with the map that a run has made of it.
+  void put_beside_depth(const std::string& frame, const std::string& map, const std::string& to) const {
+    Frame both = FrameFile(file(frame), {}).read({"depth", "normal"});
+    FrameFile made(file(map), {});
+    Frame samples = made.read({"stochastic.00", "stochastic.01", "stochastic.02", "stochastic.03"});
+    for (size_t v = 0; v < both.views.size(); ++v)
+      for (auto& [name, plane] : samples.views[v].planes) both.views[v].planes.emplace(name, std::move(plane));
+    both.attributes["gloamParameters"] = made.text_attribute("gloamParameters");
+    write_frame(file(to), both);
   }
 
   static int held_in(const Frame& frame) {
@@ -117,6 +135,72 @@ TEST_F(RelevantMap, OfAFileHasTheRadiusThatSuitsItsFirstFrame) {
               first.number_attribute("gloamStochasticRadius"))
         << name;
   }
+}
+
+TEST_F(RelevantMap, OfOneViewIsRefusedForTheOther) {
+  const std::vector<std::string> says = {"gloam: multiview: looks among one view's stochastic depths",
+                                         "surfaces=hidden"};
+  const Arguments capture = {"capture", "corridor", "--size", "64x36", "--planes", "normal", "--view2", "20"};
+  done(capture, {"-o", file("layers.exr"), "--peel", "8"});
+  const Arguments multiview = {"run", "multiview", file("layers.exr"), "-o", file("ao.exr")};
+  done(multiview);
+  Arguments relevant = multiview;
+  relevant.insert(relevant.end(), {"--set", "stochastic-depth.surfaces=relevant"});
+  refused(relevant, says);
+  // Stored by a capture, or by a run.
+  done(capture, {"-o", file("map.exr"), "--stochastic", "4", "--stochastic-surfaces", "relevant"});
+  refused({"run", "multiview", file("map.exr"), "-o", file("ao.exr")}, {says[0], "--stochastic-surfaces hidden"});
+  done({"run", "stochastic-depth", file("layers.exr"), "-o", file("made.exr"), "--set", "surfaces=relevant"});
+  put_beside_depth("layers.exr", "made.exr", "both.exr");
+  refused({"run", "multiview", file("both.exr"), "-o", file("ao.exr")}, {says[0], "--stochastic-surfaces hidden"});
+  // Each view by itself reads it.
+  EXPECT_EQ(done({"run", "sd-hbao+", file("map.exr"), "-o", file("ao.exr")}).err.find("relevant"), std::string::npos);
+}
+
+TEST_F(RelevantMap, ServesTwoEyesThatAgreeWithANote) {
+  done({"capture", "corridor", "-o", file("eyes.exr"), "--size", "96x54", "--planes", "normal", "--stereo", "0.1",
+        "--peel", "16"});
+  const auto ao_with = [&](const std::string& surfaces) {
+    const Result result = done({"run", "stereo-sd-hbao+", file("eyes.exr"), "-o", file("ao.exr"), "--samples", "16",
+                                "--set", "surfaces=" + surfaces, "--filter", "none"});
+    EXPECT_EQ(result.err.find("looks in the other eye's map too") != std::string::npos, surfaces == "relevant")
+        << result.err;
+    return FrameFile(file("ao.exr"), {}).read({"ao_raw"});
+  };
+  EXPECT_TRUE(same_bits(ao_with("hidden"), ao_with("relevant"))) << "eyes so close show nearly the same";
+}
+
+TEST_F(RelevantMap, IsTooSmallForARangeBeyondTheRadius) {
+  done({"capture", "corridor", "-o", file("layers.exr"), "--size", "64x36", "--planes", "normal", "--peel", "8"});
+  const auto notes = [&](const std::string& technique, const Arguments& settings) {
+    return done({"run", technique, file("layers.exr"), "-o", file("ao.exr")}, settings).err;
+  };
+  const std::string words = "sd-ssao: range 2 lets surfaces count that are farther away";
+  EXPECT_NE(notes("sd-ssao", {"--set", "surfaces=relevant"}).find(words), std::string::npos);
+  EXPECT_EQ(notes("sd-ssao", {}).find("farther away"), std::string::npos);
+  EXPECT_EQ(notes("sd-ssao", {"--set", "surfaces=relevant", "--set", "range=0.5"}).find("farther away"),
+            std::string::npos);
+  EXPECT_EQ(notes("sd-gtao", {"--set", "surfaces=relevant"}).find("farther away"), std::string::npos);
+}
+
+TEST_F(RelevantMap, OfAFileIsForItsRadius) {
+  done({"capture", "corridor", "-o", file("map.exr"), "--size", "64x36", "--planes", "normal", "--stochastic", "4",
+        "--stochastic-surfaces", "relevant", "--stochastic-radius", "0.3"});
+  const auto notes = [&](const std::string& technique, const std::string& radius) {
+    return done({"run", technique, file("map.exr"), "-o", file("ao.exr"), "--radius", radius}).err;
+  };
+  EXPECT_NE(notes("sd-gtao", "0.6").find("sd-gtao: the map's surfaces are relevant within 0.3 scene units"),
+            std::string::npos);
+  EXPECT_EQ(notes("sd-gtao", "0.3").find("relevant"), std::string::npos);
+  EXPECT_EQ(notes("gtao", "0.6").find("relevant"), std::string::npos) << "reads no map";
+  EXPECT_NE(notes("sd-ssao", "0.3").find("farther away than the radius"), std::string::npos);
+  // Of a run too.
+  done({"capture", "corridor", "-o", file("layers.exr"), "--size", "64x36", "--planes", "normal", "--view2", "20",
+        "--peel", "8"});
+  done({"run", "stochastic-depth", file("layers.exr"), "-o", file("made.exr"), "--set", "surfaces=relevant", "--radius",
+        "0.3"});
+  put_beside_depth("layers.exr", "made.exr", "map.exr");
+  EXPECT_NE(notes("sd-gtao", "0.6").find("within 0.3 scene units"), std::string::npos);
 }
 
 }  // namespace
