@@ -84,6 +84,7 @@ def spectrum(lab):
 
 
 record(PAGE, "Open surfaces stay open", why="the terms before are no longer part of the project")
+record(PAGE, "docs/images/evidence_faults.png", why="shows the terms and the history before, which are no longer part of the project")
 record(PAGE, "A second look", why="made once with the Python module: the frame before as the second of two arrays of stereo-evidence")
 
 

@@ -9,6 +9,7 @@
 #include "gloam/planes.h"
 #include "plan/adaptive.h"
 #include "plan/mask.h"
+#include "plan/relevant_map.h"
 #include "plan/resample.h"
 #include "plan/settings.h"
 #include "plan/stacks.h"
@@ -174,6 +175,7 @@ Plan make_plan(const PlanRequest& given, const std::vector<std::string>& availab
       plan.passes.push_back({walk.order[i], std::move(pass), values[i]});
     }
   }
+  check_made_map(plan);
   trim_stacks(plan);
   plan.outputs = wanted.outputs;
   plan.resolution = request.resolution;

@@ -102,9 +102,11 @@ SharedFrame read_frame(FrameFiles& files, const std::vector<std::string>& planes
   take_camera(camera, held->frame);
   const FrameFile& first = files.files().front();
   if (const std::optional<double> radius = stated_radius(first, notes)) held->frame.numbers["aoRadius"] = *radius;
-  if (const std::optional<double> exposure = first.number_attribute("gloamExposure"))
-    held->frame.numbers["gloamExposure"] = *exposure;
-  for (const char* name : {"gloamScene", "gloamTechnique", "gloamParameters", "gloamRun", color_holds_attribute}) {
+  for (const char* name : {"gloamExposure", "gloamStochasticRadius"}) {
+    if (const std::optional<double> number = first.number_attribute(name)) held->frame.numbers[name] = *number;
+  }
+  for (const char* name : {"gloamScene", "gloamTechnique", "gloamParameters", "gloamRun", color_holds_attribute,
+                           "gloamStochasticSurfaces"}) {
     if (const std::string text = first.text_attribute(name); !text.empty())
       held->frame.attributes[name] = on_one_line(text);
   }

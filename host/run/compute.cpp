@@ -29,6 +29,14 @@ std::string warning_about_views(const Plan& plan, const Frame& frame) {
       frame.views[0].name, frame.views[1].name);
 }
 
+/// The radius of a map of relevant surfaces that the frame holds, where its header said it.
+std::optional<double> radius_of_map(const Frame& frame) {
+  if (const auto stored = frame.numbers.find("gloamStochasticRadius"); stored != frame.numbers.end())
+    return stored->second;
+  const auto parameters = frame.attributes.find("gloamParameters");
+  return parameters == frame.attributes.end() ? std::nullopt : radius_of_relevant(parameters->second);
+}
+
 }  // namespace
 
 std::string planes_in_words(const std::vector<std::string>& planes) {
@@ -38,6 +46,8 @@ std::string planes_in_words(const std::vector<std::string>& planes) {
 std::vector<std::string> notes_about_views(const Plan& plan, const Frame& frame) {
   std::vector<std::string> notes;
   if (const std::string warning = warning_about_views(plan, frame); !warning.empty()) notes.push_back(warning);
+  if (const std::string warning = warning_about_map(plan, radius_of_map(frame)); !warning.empty())
+    notes.push_back(warning);
   for (const PlannedPass& planned : plan.passes) {
     if (!planned.technique->assumes) continue;
     for (const View& view : frame.views) {
@@ -54,6 +64,10 @@ Computation plan_on(const PlanRequest& request, const Frame& frame, const std::v
   const std::string holds = planes_in_words(planes);
   add_new(planes, also);
   Computation computation{make_plan(request, planes, holds), {}, {}};
+  check_stored_map(computation.plan, [&](const std::string& name) {
+    const auto said = frame.attributes.find(name);
+    return said == frame.attributes.end() ? "" : said->second;
+  });
   computation.radius = radius_of(computation.plan, request, RadiusSource::flag);
   const bool is_given = request.radius || has_radius(request, computation.plan);
   if (computation.radius && !is_given) {

@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 #include "base/elapsed.h"
 #include "base/lists.h"
@@ -18,11 +19,13 @@
 #include "gloam/margin.h"
 #include "gloam/planes.h"
 #include "gloam/projection.h"
+#include "gloam/radius.h"
 #include "gloam/scene/camera_ray.h"
 #include "gloam/scene/radiance.h"
 #include "gloam/scene/tracer.h"
 #include "scene/capture_options.h"
 #include "scene/capture_target.h"
+#include "scene/earlier_scene.h"
 #include "scene/stochastic_map.h"
 
 namespace gloam {
@@ -63,49 +66,6 @@ void OutlineCounter::row(int y) const {
     // Each orthographic ray has its own start; most starts have nothing behind them.
     const int at_start = at_eye_ ? *at_eye_ : outlines_->around(ray.origin, -ray.direction);
     target_.outline_count->at(x, y) = float(at_start + outlines_->crossings(ray));
-  }
-}
-
-using glm::dvec3;
-
-/// Weights of a triangle's corners, whose sum is 1, for a point in its plane.
-dvec3 weights_at(const dvec3 (&corners)[3], const dvec3& point) {
-  const dvec3 u = corners[1] - corners[0], v = corners[2] - corners[0], p = point - corners[0];
-  const dvec3 normal = glm::cross(u, v);
-  const double area = glm::dot(normal, normal);
-  if (area == 0) return {1, 0, 0};
-  const double b = glm::dot(glm::cross(p, v), normal) / area, c = glm::dot(glm::cross(u, p), normal) / area;
-  return {1 - b - c, b, c};
-}
-
-/// Position in the world, in `before`, of the point of a triangle that a surface of `now` shows: the same mesh, triangle and
-/// barycentric coordinates. Where the triangle has not moved, the surface's position itself.
-dvec3 earlier_position(const Scene& now, const Scene& before, const Surface& surface) {
-  const Mesh &mesh = now.meshes[size_t(surface.mesh)], &moved = before.meshes[size_t(surface.mesh)];
-  const glm::uvec3& triangle = mesh.triangles[surface.triangle];
-  dvec3 corners[3], earlier[3];
-  bool has_moved = now.origin != before.origin;
-  for (int i = 0; i < 3; ++i) {
-    corners[i] = mesh.positions[triangle[i]];
-    earlier[i] = moved.positions[triangle[i]];
-    has_moved |= corners[i] != earlier[i];
-  }
-  if (!has_moved) return surface.position + now.origin;
-  const dvec3 weights = weights_at(corners, surface.position);
-  return weights.x * earlier[0] + weights.y * earlier[1] + weights.z * earlier[2] + before.origin;
-}
-
-/// Throws UsageError if the scenes differ in more than where their vertices are.
-void check_earlier_scene(const Scene& now, const Scene& before) {
-  if (now.meshes.size() != before.meshes.size())
-    throw UsageError("the scene has {} meshes, and the one of the frame before {}; for motion both need the same ones",
-                     now.meshes.size(), before.meshes.size());
-  for (size_t i = 0; i < now.meshes.size(); ++i) {
-    const Mesh &mesh = now.meshes[i], &earlier = before.meshes[i];
-    if (mesh.triangles == earlier.triangles && mesh.positions.size() == earlier.positions.size()) continue;
-    throw UsageError(
-        "mesh '{}' has other triangles than in the scene of the frame before; for motion only vertices may move",
-        mesh.name);
   }
 }
 
@@ -153,7 +113,7 @@ class Capturer {
     needs_all_ = target.back_depth || target.peel_count || stochastic_.is_wanted();
   }
 
-  PartSeconds row(int y) const {
+  PartSeconds row(int y) {
     std::vector<Surface> surfaces;
     RowDepths depths;
     for (int x = 0; x < window_.width(); ++x) {
@@ -164,12 +124,19 @@ class Capturer {
     }
     PartSeconds seconds;
     auto start = std::chrono::steady_clock::now();
-    stochastic_.row(y, depths);
+    stochastic_.row(y, std::move(depths));
     seconds.stochastic = seconds_since(start);
     start = std::chrono::steady_clock::now();
     outlines_.row(y);
     seconds.outlines = seconds_since(start);
     return seconds;
+  }
+
+  /// What needs all rows. Returns the seconds.
+  double complete() {
+    const auto start = std::chrono::steady_clock::now();
+    stochastic_.choose_among_kept(*target_.depth, view_.camera);
+    return seconds_since(start);
   }
 
  private:
@@ -275,7 +242,7 @@ int thread_count() {
 }
 
 /// Captures all rows of a view on all threads. Returns the seconds of the parts as a mean over the threads.
-PartSeconds capture_rows(const Capturer& capturer, const CaptureOptions& options, int rows_before) {
+PartSeconds capture_rows(Capturer& capturer, const CaptureOptions& options, int rows_before) {
   const int height = window_of(options).height();
   const int rows = height * int(options.views.size() + (options.second_view ? 1 : 0));
   int done = rows_before;
@@ -314,8 +281,9 @@ void capture_view(const Tracer& tracer, const CaptureView& from, const CaptureOp
   const Light& light = tracer.scene().light;
   if (light.sun != vec3(0) && light.to_sun != vec3(0)) view.light = glm::normalize(dvec3(light.to_sun));
   const CaptureTarget target = capture_target(view, options, Layout(window.width(), window.height()));
-  const PartSeconds seconds = capture_rows(Capturer(tracer, from, target, options), options, rows_before);
-  result.stochastic_seconds += seconds.stochastic;
+  Capturer capturer(tracer, from, target, options);
+  const PartSeconds seconds = capture_rows(capturer, options, rows_before);
+  result.stochastic_seconds += seconds.stochastic + capturer.complete();
   result.outline_seconds += seconds.outlines;
   const bool lit = target.color[0] && tracer.scene().light.sun != vec3(0);
   const long long surfaces = surfaces_in(*target.depth);
@@ -373,11 +341,25 @@ std::vector<std::string> usual_capture_planes() {
   return planes;
 }
 
+std::optional<double> suitable_radius(const Tracer& tracer, const CaptureOptions& options) {
+  if (tracer.scene().ao_radius > 0) return tracer.scene().ao_radius;
+  CaptureOptions depth = options;
+  depth.planes.clear();
+  depth.peel = depth.stochastic.samples = 0;
+  depth.peel_light = false;
+  depth.outlines = nullptr;
+  depth.progress = {};
+  return radius_made_from(capture(tracer, depth).frame);
+}
+
 CaptureResult capture(const Tracer& tracer, const CaptureOptions& asked) {
   check_options(asked);
   if (asked.previous_scene) check_earlier_scene(tracer.scene(), *asked.previous_scene);
-  const CaptureOptions options = with_both_eyes(asked);
+  CaptureOptions options = with_both_eyes(asked);
   const auto start = std::chrono::steady_clock::now();
+  // Where nothing is visible, nothing is relevant.
+  if (is_of_relevant(options.stochastic) && !options.stochastic.radius)
+    options.stochastic.radius = suitable_radius(tracer, asked).value_or(1);
   CaptureResult result;
   Frame& frame = result.frame;
   frame.display = {0, 0, options.width, options.height};

@@ -27,6 +27,22 @@ void check_margin(const CaptureOptions& options) {
                        option("overscan"));
 }
 
+/// A map of relevant surfaces needs to know how far a radius reaches on the screen.
+void check_relevant(const CaptureOptions& options) {
+  const StochasticOptions& map = options.stochastic;
+  if (!is_of_relevant(map)) return;
+  if (map.radius && !(*map.radius > 0 && *map.radius <= 1e30))
+    throw UsageError("radius {:g} has no relevant surfaces; give a number above 0, 1e30 at most", *map.radius);
+  if (!(map.max_reach >= 0 && map.max_reach <= 1))
+    throw UsageError("a reach of {:g} is no share of the image's width; give 0 to 1", map.max_reach);
+  for (const CaptureView& view : options.views)
+    if (view.camera.slits)
+      throw UsageError(
+          "which surfaces are relevant is unknown for the views of a light-field display, where a radius has another "
+          "size at each pixel; use {}",
+          option("stochastic-surfaces", "hidden"));
+}
+
 void check_stochastic(const StochasticOptions& options) {
   if (options.samples < 0 || options.samples > STOCHASTIC_MOST)
     throw UsageError("a stochastic depth map of {} samples cannot be made; 1 to {} can", options.samples,
@@ -72,6 +88,7 @@ void check_options(const CaptureOptions& options) {
                      suggestion(plane, capture_planes()), enumerate(capture_planes()));
   }
   check_stochastic(options.stochastic);
+  check_relevant(options);
   if (options.second_view) check_second_view(options);
   if (options.stereo) check_can_become_two(options, "a pair of eyes", "takes the place of");
   for (const CaptureView& view : options.views) {

@@ -1,13 +1,14 @@
 #include "scene/stochastic_map.h"
 
 #include <bit>
+#include <utility>
 
 #include "shared/both/stochastic.h"
 
 namespace gloam {
 
 const std::vector<std::string>& stochastic_surfaces() {
-  static const std::vector<std::string> names = {"all", "hidden"};
+  static const std::vector<std::string> names = {"all", "hidden", "relevant"};
   return names;
 }
 
@@ -16,9 +17,17 @@ const std::vector<std::string>& stochastic_subsets() {
   return names;
 }
 
+bool is_of_relevant(const StochasticOptions& options) {
+  return options.samples > 0 && options.surfaces == StochasticSurfaces::relevant;
+}
+
 void say_stochastic(Frame& frame, const StochasticOptions& options) {
   frame.attributes["gloamStochasticSurfaces"] = stochastic_surfaces()[size_t(options.surfaces)];
   frame.attributes["gloamStochasticSubset"] = stochastic_subsets()[size_t(options.subset)];
+  if (is_of_relevant(options)) {
+    frame.numbers["gloamStochasticRadius"] = options.radius.value_or(0);
+    frame.numbers["gloamStochasticReach"] = options.max_reach;
+  }
   if (options.subset == StochasticSubset::nearest) return;
   frame.numbers["gloamStochasticAlpha"] = options.alpha;
   frame.attributes["gloamStochasticSeed"] = std::to_string(options.seed);
@@ -28,12 +37,32 @@ StochasticMap::StochasticMap(const StochasticOptions& options, const Window& win
                              const std::vector<Channel*>& samples)
     : alpha_(uint32_t(float(options.alpha) * float(STOCHASTIC_ONE))),
       seed_(uint32_t(options.seed)),
-      only_hidden_(options.surfaces == StochasticSurfaces::hidden),
+      only_hidden_(options.surfaces != StochasticSurfaces::all),
+      only_relevant_(options.surfaces == StochasticSurfaces::relevant),
       nearest_first_(options.subset == StochasticSubset::nearest),
+      radius_(options.radius.value_or(0)),
+      max_reach_(options.max_reach),
       window_(window),
-      samples_(samples) {}
+      samples_(samples) {
+  if (only_relevant_ && is_wanted()) kept_.resize(size_t(window.height()));
+}
 
-void StochasticMap::row(int y, const RowDepths& row) const {
+void StochasticMap::row(int y, RowDepths row) {
+  if (kept_.empty())
+    choose(y, row);
+  else
+    kept_[size_t(y)] = std::move(row);
+}
+
+void StochasticMap::choose_among_kept(const Channel& depth, const Camera& camera) {
+  if (kept_.empty()) return;
+  relevant_ = RelevantSlices(depth, camera, window_, radius_, max_reach_);
+#pragma omp parallel for schedule(dynamic, 4)
+  for (int y = 0; y < int(kept_.size()); ++y) choose(y, kept_[size_t(y)]);
+  kept_.clear();
+}
+
+void StochasticMap::choose(int y, const RowDepths& row) const {
   size_t begin = 0;
   for (size_t x = 0; x < row.ends.size(); ++x) {
     pixel(int(x), y, row.depths.data() + begin, row.depths.data() + row.ends[x]);
@@ -47,6 +76,7 @@ void StochasticMap::pixel(int x, int y, const float* begin, const float* end) co
   uint32_t empty = (1u << samples) - 1;
   for (const float* depth = begin; depth < end && empty != 0; ++depth) {
     if (only_hidden_ && *depth == *begin) continue;
+    if (only_relevant_ && !relevant_.hold(x, y, *depth)) continue;
     const uint32_t offered = subset(x, y, *depth, *begin, empty);
     for (uint32_t left = offered; left != 0; left &= left - 1)
       samples_[size_t(std::countr_zero(left))]->at(x, y) = *depth;

@@ -8,7 +8,10 @@ namespace gloam {
 
 Plan plan_for_files(const FrameFiles& files, const PlanRequest& request) {
   try {
-    return make_plan(request, files.common_planes(), holdings(files));
+    Plan plan = make_plan(request, files.common_planes(), holdings(files));
+    for (const FrameFile& file : files.files())
+      check_stored_map(plan, [&](const std::string& name) { return file.text_attribute(name); });
+    return plan;
   } catch (const MissingPlanes& missing) {
     // If only some views lack the plane, a list of channels would confuse.
     std::vector<std::string> wanted = missing.planes;

@@ -23,6 +23,12 @@ std::vector<std::string> planes_left(const Frame& frame, const std::vector<std::
   return left;
 }
 
+/// The radius of a map of relevant surfaces in a file, where its header says it.
+std::optional<double> radius_of_map(const FrameFile& file) {
+  const std::optional<double> captured = file.number_attribute("gloamStochasticRadius");
+  return captured ? captured : radius_of_relevant(file.text_attribute("gloamParameters"));
+}
+
 }  // namespace
 
 void plan_again(PlannedFrame& planned, bool carries_depth) {
@@ -56,8 +62,14 @@ std::optional<Radius> settle(PlannedFrame& planned, const Frame& frame, std::vec
   // If a plane turned out to be unusable (normals in the space of an unknown camera), make it instead.
   const bool is_all_left = left.size() == planned.plan.inputs.size();
   if (!is_all_left) planned.plan = make_plan(planned.request, left, holds);
-  return settle_radius(planned.request, planned.plan, frame, stated_radius(planned.files.files().front(), notes),
-                       is_all_left ? planned.files.common_planes() : left, holds);
+  const std::optional<Radius> radius =
+      settle_radius(planned.request, planned.plan, frame, stated_radius(planned.files.files().front(), notes),
+                    is_all_left ? planned.files.common_planes() : left, holds);
+  // Of maps that the plan makes, notes_about_views says it.
+  if (const std::optional<double> of_map = radius_of_map(planned.files.files().front())) {
+    if (const std::string warning = warning_about_map(planned.plan, of_map); !warning.empty()) notes.push_back(warning);
+  }
+  return radius;
 }
 
 std::vector<std::string> warning_about_history(const Frame& frame, const Frame& result, const std::string& who) {

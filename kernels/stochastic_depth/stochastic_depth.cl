@@ -2,31 +2,21 @@
 // offered to some of the samples, and each sample keeps the nearest that it was offered. HIDDEN: surfaces behind the nearest
 // alone are offered. JITTER 0: the samples hold the surfaces that are offered, the nearest in the first. RELEVANT: of the hidden
 // surfaces only those are offered that may be within the radius of something visible. Depth is divided into slices of one radius;
-// each tile of TILE x TILE pixels knows in which slices a tile within reach shows something, and the slices beside these.
+// each tile of pixels knows (shared/both/relevant.h) in which slices a tile within reach shows something, and the slices beside these.
 //
 // in : depth       view-space z of the nearest surface, scene units, +inf = background
 //      peel        stack of all surfaces under the pixel centre, the nearest among them
 // out: stochastic  stack of SAMPLES depths; +inf where a sample was offered nothing
 // slices_of_tiles, slices_across, slices_down: `frame` is the tiles; of slices_of_tiles and the map `other` is the other resolution
-//      slices      whole number with a bit for each slice; every SLICES-th slice has the same one
+//      slices      whole number with a bit for each slice; every RELEVANT_SLICES-th slice has the same one
 //      reach       how far something in the tile looks for occluders, in tiles
-// -D SAMPLES, HIDDEN, HASHED, JITTER, RELEVANT, TILE, PEEL_LAYERS
+// -D SAMPLES, HIDDEN, HASHED, JITTER, RELEVANT, PEEL_LAYERS
 #include "shared/lanes/load.h"
 #include "shared/lanes/math.h"
+#include "shared/both/relevant.h"
 #include "shared/both/stochastic.h"
 
-// As many bits as a float holds in a whole number.
-#define SLICES 24
-
 #if RELEVANT
-// Of a depth that is not infinite. What is more than a million radii away is in one slice.
-static inline natural slice_of(real depth, scalar radius) {
-  const real slice = floor(smaller(depth * min(1 / radius, (scalar)1e30f), (real)(1e6f)));
-  // The product may be rounded down below a whole number: 24 in place of 0.
-  const natural bit = (natural)(1u) << to_natural(slice - SLICES * floor(slice * (scalar)(1.0f / SLICES)));
-  return (bit | bit >> SLICES) & ((1u << SLICES) - 1u);
-}
-
 // Where lanes do not count, no slice.
 static inline natural slice_where(mask counts, real depth, scalar radius) {
   const natural bit = slice_of(choose(counts, depth, (real)(0)), radius);
@@ -37,34 +27,25 @@ static inline natural slice_where(mask counts, real depth, scalar radius) {
 // out: slices, reach
 kernel void slices_of_tiles(ARGUMENTS) {
   const int here = index_of(frame, FIRST_X, ROW_Y);
-  const integer first = (FIRST_X + IOTA) * TILE;
+  const integer first = (FIRST_X + IOTA) * RELEVANT_TILE;
   natural shown = (natural)(0u);
   real nearest = REAL_INFINITY;
-  for (int dy = 0; dy < TILE; ++dy) {
-    const int row = index_of(other, 0, min(ROW_Y * TILE + dy, other.height - 1));
-    for (int dx = 0; dx < TILE; ++dx) {
+  for (int dy = 0; dy < RELEVANT_TILE; ++dy) {
+    const int row = index_of(other, 0, min(ROW_Y * RELEVANT_TILE + dy, other.height - 1));
+    for (int dx = 0; dx < RELEVANT_TILE; ++dx) {
       const real seen = gather(depth + row, min(first + dx, (integer)(other.width - 1)));
       shown |= slice_where(seen < REAL_INFINITY, seen, params.radius);
       nearest = smaller(nearest, seen);
     }
   }
-  // What is within the radius lies in the same slice or in one beside it.
-  shown |= shown << 1 | shown >> 1 | shown << (SLICES - 1) | shown >> (SLICES - 1);
-  shown &= (1u << SLICES) - 1u;
-  // Off the axis a ball is longer on the screen than its radius.
-  const real x = to_real(first) + TILE / 2 - other.centre_x, y = (real)(ROW_Y * TILE + TILE / 2) - other.centre_y;
-  const real stretch = 1 + other.perspective * (fabs(x) * other.scale_x + fabs(y) * other.scale_y);
+  const real x = to_real(first) + RELEVANT_TILE / 2 - other.centre_x,
+             y = (real)(ROW_Y * RELEVANT_TILE + RELEVANT_TILE / 2) - other.centre_y;
   const mask shows = (nearest < REAL_INFINITY) & (mask)(EVERY_LANE_IF(params.radius > 0));
-  const real per_depth = other.perspective / choose(shows, nearest, (real)(1)) + other.parallel;
-  const real pixels = smaller(params.radius / min(other.scale_x, other.scale_y) * per_depth,
-                              (real)(params.max_reach * other.width));
-  store(choose(shows, to_real(shown), (real)(0)), slices, here);
-  // One pixel more, as samples are rounded to pixels.
-  store(choose(shows, (pixels * stretch + 1) * (1.0f / TILE), (real)(0)), reach, here);
+  const real far = reach_in_tiles(other, x, y, choose(shows, nearest, (real)(1)), params.radius,
+                                  params.max_reach * other.width);
+  store(choose(shows, to_real(with_slices_beside(shown)), (real)(0)), slices, here);
+  store(choose(shows, far, (real)(0)), reach, here);
 }
-
-// Tiles whose pixels are closer to each other than the tiles are, in tiles.
-static inline real gap_between(real tiles) { return larger(fabs(tiles) - 1, (real)(0)); }
 
 // The slices of all tiles of a row that reach this one; `further`: how far up and down these still reach.
 // in : slices, reach
@@ -134,8 +115,8 @@ kernel void stochastic_depth_map(ARGUMENTS) {
   const natural first = as_natural(to_stored(seen));
   const uint alpha = (uint)(params.alpha * STOCHASTIC_ONE);
 #if RELEVANT
-  const integer tile = min(FIRST_X + IOTA, (integer)(frame.width - 1)) / TILE;
-  const natural relevant = to_natural(gather(slices + index_of(other, 0, ROW_Y / TILE), tile));
+  const integer tile = min(FIRST_X + IOTA, (integer)(frame.width - 1)) / RELEVANT_TILE;
+  const natural relevant = to_natural(gather(slices + index_of(other, 0, ROW_Y / RELEVANT_TILE), tile));
 #endif
   real samples[SAMPLES];
 #pragma unroll

@@ -1,6 +1,7 @@
 #include "gloam/technique.h"
 
 #include "shared/both/params.h"
+#include "shared/both/relevant.h"
 
 #define STOCHASTIC_DEPTH_PARAMS(P)                                                                                    \
   P(int, samples, 4, 1, 16, "", "depths per pixel")                                                                   \
@@ -24,8 +25,6 @@ namespace {
 using Surfaces = StochasticDepthParams::surfaces_values;
 using Subset = StochasticDepthParams::subset_values;
 
-constexpr int tile = 8;  ///< pixels, each way
-
 std::vector<Pass> passes(const StochasticDepthParams& p) {
   const bool is_relevant = p.surfaces == Surfaces::relevant;
   Pass map{.name = "map",
@@ -36,8 +35,7 @@ std::vector<Pass> passes(const StochasticDepthParams& p) {
                        {"HIDDEN", p.surfaces != Surfaces::all},
                        {"HASHED", p.subset == Subset::hashed},
                        {"JITTER", p.subset != Subset::nearest},
-                       {"RELEVANT", is_relevant},
-                       {"TILE", tile}}};
+                       {"RELEVANT", is_relevant}}};
   if (!is_relevant) return {std::move(map)};
   map.reads.push_back({"slices", "slices@tiles"});
   const auto of_tiles = [&](std::string name, std::string kernel, std::vector<Binding> reads,
@@ -47,7 +45,7 @@ std::vector<Pass> passes(const StochasticDepthParams& p) {
                 .reads = std::move(reads),
                 .writes = std::move(writes),
                 .defines = map.defines,
-                .scale = tile};
+                .scale = RELEVANT_TILE};
   };
   const Binding slices("slices", "slices@own"), reach("reach", "reach@own"), row_slices("row_slices", "slices@rows"),
       further("further", "reach@rows");

@@ -125,9 +125,13 @@ TEST_F(CaptureCommand, StochasticDepth) {
                                "--json",
                                "-"});
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_EQ(
-      result.json()["stochastic"],
-      nlohmann::json({{"samples", 4}, {"surfaces", "all"}, {"subset", "stratified"}, {"alpha", 0.3}, {"seed", 7}}));
+  EXPECT_EQ(result.json()["stochastic"], nlohmann::json({{"samples", 4},
+                                                         {"surfaces", "all"},
+                                                         {"subset", "stratified"},
+                                                         {"alpha", 0.3},
+                                                         {"seed", 7},
+                                                         {"radius", nullptr},
+                                                         {"max_reach", nullptr}}));
   const double chosen = result.json()["seconds"]["stochastic"], traced = result.json()["seconds"]["trace"];
   EXPECT_GT(chosen, 0);
   EXPECT_LT(chosen, traced) << "a part of it";
@@ -146,10 +150,13 @@ TEST_F(CaptureCommand, TheUsualStochasticMapHoldsTheNearestHiddenSurfaces) {
   const Result result = gloam({"capture", "fence", "-o", file("f.exr"), "--size", "64x36", "--planes", "normal",
                                "--peel", "3", "--stochastic", "2", "--json", "-"});
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_EQ(
-      result.json()["stochastic"],
-      nlohmann::json(
-          {{"samples", 2}, {"surfaces", "hidden"}, {"subset", "nearest"}, {"alpha", nullptr}, {"seed", nullptr}}));
+  EXPECT_EQ(result.json()["stochastic"], nlohmann::json({{"samples", 2},
+                                                         {"surfaces", "hidden"},
+                                                         {"subset", "nearest"},
+                                                         {"alpha", nullptr},
+                                                         {"seed", nullptr},
+                                                         {"radius", nullptr},
+                                                         {"max_reach", nullptr}}));
   FrameFile file_of_map(file("f.exr"), {});
   EXPECT_EQ(file_of_map.text_attribute("gloamStochasticSurfaces"), "hidden");
   EXPECT_EQ(file_of_map.text_attribute("gloamStochasticSubset"), "nearest");
@@ -284,6 +291,18 @@ TEST_F(CaptureCommand, RefusesStochasticDepthInOneLine) {
   // The usual map is not random.
   refused({"--stochastic", "4", "--alpha", "0.2"}, "--stochastic-subset stratified");
   refused({"--stochastic", "4", "--stochastic-seed", "2"}, "--stochastic-subset stratified");
+  // Only what is relevant depends on a radius.
+  refused({"--stochastic-radius", "2"}, "--stochastic S");
+  refused({"--stochastic", "4", "--stochastic-radius", "2"}, "--stochastic-surfaces relevant");
+  refused({"--stochastic", "4", "--stochastic-reach", ".2"}, "--stochastic-surfaces relevant");
+  for (const char* radius : {"0", "-1", "nan", "inf"})
+    refused({"--stochastic", "4", "--stochastic-surfaces", "relevant", "--stochastic-radius", radius},
+            "--stochastic-radius");
+  refused({"--stochastic", "4", "--stochastic-surfaces", "relevant", "--stochastic-reach", "1.5"},
+          "--stochastic-reach");
+  refused({"--stochastic", "4", "--stochastic-surfaces", "relevant", "--display",
+           GLOAM_SOURCE_DIR "/data/displays/small.json"},
+          "use --stochastic-surfaces hidden");
 }
 
 TEST_F(CaptureCommand, RefusesInOneLine) {

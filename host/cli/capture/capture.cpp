@@ -42,6 +42,7 @@ void state_radius(Frame& frame, CaptureFigures& figures) {
 void take(const CaptureShot& shot, const Tracer& tracer, CaptureOptions options, const WriteOptions& write,
           CaptureFigures& figures) {
   options.views = shot.views;
+  if (!options.stochastic.radius) options.stochastic.radius = figures.ao_radius;
   CaptureResult result = capture(tracer, options);
   state_radius(result.frame, figures);
   figures.trace += result.seconds;
@@ -155,10 +156,7 @@ std::optional<double> radius_of_first_frame(const CaptureCommand& flags, const C
   options.views = (flags.display.empty() ? shots_of_path(first, path) : shots_of_display(first, tracer, options, &path))
                       .front()
                       .views;
-  options.planes.clear();
-  options.peel = options.stochastic.samples = 0;
-  options.peel_light = false;
-  return radius_made_from(capture(tracer, options).frame);
+  return suitable_radius(tracer, options);
 }
 
 void capture_command(const CaptureCommand& flags) {
@@ -230,7 +228,14 @@ void add_capture(CLI::App& app) {
              "depths per pixel of a map of surfaces for techniques over stochastic depth, 1 to 16", "S");
   add_choice(*command, "--stochastic-surfaces", flags->stochastic_surfaces,
              by_name<StochasticSurfaces>(stochastic_surfaces()),
-             "which surfaces the map is made of: all, or those behind the nearest; default hidden");
+             "which surfaces the map is made of: all, those behind the nearest, or of these the ones that may be "
+             "within the radius of something visible; default hidden");
+  add_number(*command, "--stochastic-radius", flags->stochastic_radius, allowed_radii,
+             "of a map of relevant surfaces: the radius of the technique that reads it; default: the one that suits",
+             "R");
+  add_number(*command, "--stochastic-reach", flags->stochastic_reach, {0, 1},
+             "and that technique's max_reach, the cap on the radius on the screen in widths of the image; default 0.25",
+             "SHARE");
   add_choice(
       *command, "--stochastic-subset", flags->stochastic_subset, by_name<StochasticSubset>(stochastic_subsets()),
       "which of these each depth holds: chosen at random, stratified; or the nearest, front to back; default nearest");
@@ -283,6 +288,7 @@ void add_capture(CLI::App& app) {
       "  gloam capture colonnade -o pair.exr --stereo 0.065 --convergence 2\n"
       "  gloam capture gallery -o 'shot.####.exr' --shot walk --frames 1-12 --size 960x540\n"
       "  gloam capture statue -o modules.exr --display data/displays/small.json\n"
+      "  gloam capture pillar -o pillar.exr --stochastic 4 --stochastic-surfaces relevant\n"
       "  gloam capture hairball -o hair.exr --stochastic 16 --stochastic-subset stratified --alpha 0.1\n"
       "  gloam capture gallery -o gallery.exr --sky sky.exr\n"
       "  gloam capture house.glb -o house.exr --camera Kitchen --planes depth,normal\n"

@@ -22,7 +22,7 @@ struct CaptureCommand {
   std::optional<int> stochastic, stochastic_seed;
   std::optional<StochasticSurfaces> stochastic_surfaces;
   std::optional<StochasticSubset> stochastic_subset;
-  std::optional<double> alpha, view2, stereo, convergence, outlines, outline_angle;
+  std::optional<double> alpha, stochastic_radius, stochastic_reach, view2, stereo, convergence, outlines, outline_angle;
   std::optional<OutlineMethod> outline_method;
   bool half = false, toe_in = false, separate = false;
   FrameChoice choice;  ///< frames of the path or the shot

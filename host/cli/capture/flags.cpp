@@ -20,21 +20,29 @@ std::vector<std::string> planes_of(const CaptureCommand& flags) {
 StochasticOptions stochastic_of(const CaptureCommand& flags) {
   StochasticOptions options;
   options.subset = flags.stochastic_subset.value_or(options.subset);
-  const bool is_random = options.subset != StochasticSubset::nearest;
-  for (const auto& [flag, is_given, needs_chance] :
-       {std::tuple("--stochastic-surfaces", flags.stochastic_surfaces.has_value(), false),
-        std::tuple("--stochastic-subset", flags.stochastic_subset.has_value(), false),
-        std::tuple("--alpha", flags.alpha.has_value(), true),
-        std::tuple("--stochastic-seed", flags.stochastic_seed.has_value(), true)}) {
+  options.surfaces = flags.stochastic_surfaces.value_or(options.surfaces);
+  const std::string lacks_chance = options.subset != StochasticSubset::nearest
+                                       ? ""
+                                       : "surfaces chosen at random; give --stochastic-subset stratified too",
+                    lacks_radius = options.surfaces == StochasticSurfaces::relevant
+                                       ? ""
+                                       : "surfaces within a radius; give --stochastic-surfaces relevant too";
+  for (const auto& [flag, is_given, lacks] :
+       {std::tuple("--stochastic-surfaces", flags.stochastic_surfaces.has_value(), std::string()),
+        std::tuple("--stochastic-subset", flags.stochastic_subset.has_value(), std::string()),
+        std::tuple("--alpha", flags.alpha.has_value(), lacks_chance),
+        std::tuple("--stochastic-seed", flags.stochastic_seed.has_value(), lacks_chance),
+        std::tuple("--stochastic-radius", flags.stochastic_radius.has_value(), lacks_radius),
+        std::tuple("--stochastic-reach", flags.stochastic_reach.has_value(), lacks_radius)}) {
     if (!is_given) continue;
     if (!flags.stochastic) throw UsageError("{} is for a stochastic depth map; give --stochastic S too", flag);
-    if (needs_chance && !is_random)
-      throw UsageError("{} is for surfaces chosen at random; give --stochastic-subset stratified too", flag);
+    if (!lacks.empty()) throw UsageError("{} is for {}", flag, lacks);
   }
   options.samples = flags.stochastic.value_or(0);
-  options.surfaces = flags.stochastic_surfaces.value_or(options.surfaces);
   options.alpha = flags.alpha.value_or(options.alpha);
   options.seed = flags.stochastic_seed.value_or(options.seed);
+  options.radius = flags.stochastic_radius;
+  options.max_reach = flags.stochastic_reach.value_or(options.max_reach);
   return options;
 }
 

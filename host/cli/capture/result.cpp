@@ -15,14 +15,23 @@ double span_of(const Camera& camera, int width) {
   return (std::atan(left) + std::atan(right)) * 180 / std::numbers::pi;
 }
 
-Json stochastic_document(const StochasticOptions& options) {
+/// The radius of a map of relevant surfaces; none of another map.
+std::optional<double> radius_of_map(const StochasticOptions& options, const CaptureFigures& f) {
+  if (!is_of_relevant(options)) return {};
+  return options.radius ? options.radius : f.ao_radius;
+}
+
+Json stochastic_document(const StochasticOptions& options, const CaptureFigures& f) {
   if (options.samples == 0) return nullptr;
+  const std::optional<double> radius = radius_of_map(options, f);
   const bool is_random = options.subset != StochasticSubset::nearest;
   return {{"samples", options.samples},
           {"surfaces", stochastic_surfaces()[size_t(options.surfaces)]},
           {"subset", stochastic_subsets()[size_t(options.subset)]},
           {"alpha", is_random ? Json(options.alpha) : Json()},
-          {"seed", is_random ? Json(options.seed) : Json()}};
+          {"seed", is_random ? Json(options.seed) : Json()},
+          {"radius", radius ? Json(*radius) : Json()},
+          {"max_reach", radius ? Json(options.max_reach) : Json()}};
 }
 
 Json outlines_document(const CaptureOptions& options, const CaptureFigures& f) {
@@ -54,6 +63,16 @@ Json stereo_document(const CaptureOptions& options, const CaptureFigures& f) {
           {"shift_pixels", f.shift}};
 }
 
+/// "4 samples of relevant surfaces (within 0.5 scene units), stratified, alpha 0.25"
+std::string stochastic_in_words(const CaptureOptions& options, const CaptureFigures& f) {
+  const StochasticOptions& map = options.stochastic;
+  const std::optional<double> radius = radius_of_map(map, f);
+  return fmt::format("{} samples of {} surfaces{}, {}{}", map.samples, stochastic_surfaces()[size_t(map.surfaces)],
+                     radius ? fmt::format(" (within {:g} scene units)", *radius) : "",
+                     stochastic_subsets()[size_t(map.subset)],
+                     map.subset == StochasticSubset::nearest ? "" : fmt::format(", alpha {:g}", map.alpha));
+}
+
 /// "parallel", "converging at depth 2: images shifted by 6.9 pixels each"
 std::string convergence_in_words(const StereoRig& rig, double shift) {
   if (!rig.convergence) return "parallel";
@@ -75,7 +94,7 @@ Json capture_document(const Scene& scene, const CaptureOptions& options, const C
       {"margin", {options.margin_x, options.margin_y}},
       {"files", f.files},
       {"layers", layers},
-      {"stochastic", stochastic_document(options.stochastic)},
+      {"stochastic", stochastic_document(options.stochastic, f)},
       {"outlines", outlines_document(options, f)},
       {"view2", second_view_document(options, f)},
       {"stereo", stereo_document(options, f)},
@@ -95,12 +114,7 @@ void print_capture(const Scene& scene, const CaptureOptions& options, const Capt
   if (options.peel > 0)
     fmt::print("layers under a pixel: mean {:.2f}, most {}; {} stored\n", f.layers.mean(), f.layers.most, options.peel);
   if (options.stochastic.samples > 0)
-    fmt::print("stochastic depth: {} samples of {} surfaces, {}{}; choosing them took {:.3f} s of the tracing\n",
-               options.stochastic.samples, stochastic_surfaces()[size_t(options.stochastic.surfaces)],
-               stochastic_subsets()[size_t(options.stochastic.subset)],
-               options.stochastic.subset == StochasticSubset::nearest
-                   ? ""
-                   : fmt::format(", alpha {:g}", options.stochastic.alpha),
+    fmt::print("stochastic depth: {}; choosing them took {:.3f} s of the tracing\n", stochastic_in_words(options, f),
                f.stochastic);
   if (options.outlines)
     fmt::print("outlines: {:g} scene units away, {}; building them took {:.3f} s, counting {:.3f} s of the tracing\n",

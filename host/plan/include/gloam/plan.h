@@ -1,6 +1,7 @@
 // A plan: the passes from the planes at hand to the outputs asked for.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -90,6 +91,19 @@ class MissingPlanes : public Error {
 /// first ones; if there are fewer, the last one is a missing plane.
 /// With `resolution` above 1, names of planes at that resolution end in it: "depth@2".
 Plan make_plan(const PlanRequest& request, const std::vector<std::string>& available, const std::string& holds);
+
+/// Throws UsageError if a plan reads one view's stochastic depths for the other view, and those of the frame are of surfaces that are
+/// relevant to their own view alone; of depths that the plan makes, make_plan does. `says`: the text of an attribute of the frame's header
+/// (docs/gbuffer.md) by its name, empty without it.
+void check_stored_map(const Plan& plan, const std::function<std::string(const std::string&)>& says);
+
+/// The radius of a map of relevant surfaces that a run of stochastic-depth made, by the attribute gloamParameters; none of others.
+std::optional<double> radius_of_relevant(const std::string& parameters);
+
+/// A sentence if a plan reads a map of relevant surfaces that leaves out some that count: for a range beyond the radius, or a radius beyond
+/// that of a map which the frame holds. `radius_of_stored`: of the latter, gloamStochasticRadius or gloamParameters in the frame's header;
+/// none: it is of other surfaces. Else empty.
+std::string warning_about_map(const Plan& plan, std::optional<double> radius_of_stored);
 
 /// Planes that a technique returns, including those that it leaves to its filter.
 const std::vector<std::string>& outputs_of(const Technique& technique);

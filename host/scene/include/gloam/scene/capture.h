@@ -21,8 +21,9 @@ struct CaptureView {
   std::optional<Camera> previous_camera = {};  ///< camera of the frame before, for motion vectors
 };
 
-/// Which surfaces under a pixel centre a stochastic depth map is made of: all, as in the paper, or those behind the nearest.
-enum class StochasticSurfaces { all, hidden };
+/// Which surfaces under a pixel centre a stochastic depth map is made of: all, as in the paper; those behind the nearest; or of these the
+/// ones that may be within the radius of something that the view shows.
+enum class StochasticSurfaces { all, hidden, relevant };
 /// Names in the order of the enumerators.
 const std::vector<std::string>& stochastic_surfaces();
 
@@ -40,7 +41,13 @@ struct StochasticOptions {
   int seed = 0;
   StochasticSurfaces surfaces = StochasticSurfaces::hidden;
   StochasticSubset subset = StochasticSubset::nearest;
+  /// Of relevant surfaces: the radius of the technique that reads the map, scene units, above 0, used as float. None: the scene's
+  /// (`suitable_radius`).
+  std::optional<double> radius = {};
+  double max_reach = 0.25;  ///< and the technique's cap on it on the screen, in widths of the window, 0 to 1
 };
+/// Whether a map is made, and of relevant surfaces.
+bool is_of_relevant(const StochasticOptions& options);
 
 struct CaptureOptions {
   int width = 1920, height = 1080;       ///< of the picture: the display window, which the cameras are of
@@ -84,12 +91,18 @@ std::vector<std::string> usual_capture_planes();
 /// centre, stored or not. `instance` is the mesh's index + 1; 0 is background. `outline_count` is the number of outlines that
 /// contain the eye (`Outlines::around`) plus the signed crossings from there to the visible surface, or to the far plane.
 /// Attributes of the frame: its scene (gloamScene), what its colour holds (gloamColorHolds: "ambient,shadows"), how its stochastic depths were
-/// made (gloamStochasticSurfaces, gloamStochasticSubset, of a stratified map gloamStochasticAlpha and gloamStochasticSeed), its outlines (gloamOutlines, their extent in scene units, gloamOutlineMethod, and gloamOutlineAngle,
+/// made (gloamStochasticSurfaces, gloamStochasticSubset, of a stratified map gloamStochasticAlpha and gloamStochasticSeed, of relevant surfaces
+/// gloamStochasticRadius, scene units, and gloamStochasticReach), its outlines (gloamOutlines, their extent in scene units, gloamOutlineMethod, and gloamOutlineAngle,
 /// degrees), the turn of its second view (gloamSecondView, degrees) and the placement of its eyes (gloamStereo and
 /// gloamConvergence, scene units, gloamToeIn, degrees). Near and far planes of cameras clip.
 /// Throws UsageError for an unknown plane; for a size or a number of layers or samples out of range; for a second view or a pair of
 /// eyes with several views, or both at once; for a second view with motion; for a rig that `stereo_cameras` refuses; for a previous
-/// scene of other meshes; for a margin around the views of a display. Pixels of the picture are the same with any margin. Throws Error for a camera without a pose, and for a second view if the first shows nothing.
+/// scene of other meshes; for a margin around the views of a display, and for a map of relevant surfaces there. Pixels of the picture are the same with any margin,
+/// but in a map of relevant surfaces: what the margin shows has relevant ones too. Throws Error for a camera without a pose, and for a second view if the first shows nothing.
 CaptureResult capture(const Tracer& tracer, const CaptureOptions& options);
+
+/// The radius of ambient occlusion that suits a capture: the scene's own, or one made from the depths of these views (radius.h). None
+/// where nothing is visible.
+std::optional<double> suitable_radius(const Tracer& tracer, const CaptureOptions& options);
 
 }  // namespace gloam
