@@ -6,6 +6,7 @@
 #include "base/lists.h"
 #include "gloam/error.h"
 #include "gloam/option.h"
+#include "planner/goal.h"
 
 namespace gloam {
 namespace {
@@ -167,6 +168,26 @@ void plan_effects(AutoPlan& planned, const PlanRequest& asked, const AutoPurpose
   if (purpose.explains || purpose.looks_at_picture || looks_at_changes(planned.candidates))
     for (const std::string& plane : planes_to_compose())
       if (contains(available, plane)) add_new(planned.planes, plane);
+}
+
+void check_goal(const Goal& goal, const AutoPlan& planned) {
+  if (!goal) return;
+  check_one_goal(goal);
+  if (planned.facts.is_of_display)
+    throw UsageError(
+        "{}: weighs effects by the picture of one camera, and a light-field display has many; leave it out",
+        in_words(goal));
+  for (const Unfit& each : planned.unfit) {
+    if (each.plane == "color")
+      throw Error(
+          "{}: needs the frame's colour to tell what effects change in it, and color is unfit: {}; {} has it taken",
+          in_words(goal), each.why, channels_option("color", "CHANNELS"));
+  }
+  if (!contains(planned.facts.planes, "color"))
+    throw UsageError(
+        "{0}: needs the frame's colour to tell what effects change in it, and {1} has none; name it with {2}, or leave "
+        "{0} out",
+        in_words(goal), planned.facts.name, channels_option("color", "LAYER"));
 }
 
 }  // namespace gloam

@@ -116,6 +116,17 @@ std::string totals_in_words(const AutoResult& result, const Goal& goal) {
       in_words(goal), ms_of(result), result.spent->glance_ms, result.spent->expected_error);
 }
 
+std::string note_on_goal(const Spent& spent, const Goal& goal) {
+  if (!spent.is_missed) return "";
+  if (goal.error)
+    return fmt::format("{}: no choice is expected to reach it; the nearest, {:.4f}, was taken", in_words(goal),
+                       spent.expected_error);
+  return fmt::format(
+      "{}: nothing fits, so all effects were left out; looking takes {:.2f} ms, and with the cheapest, {}, it is "
+      "{:.2f} ms",
+      in_words(goal), spent.glance_ms, spent.cheapest, spent.cheapest_ms);
+}
+
 std::string json_of(const AutoResult& result, const Goal& goal, const DeviceInfo& device) {
   return document_of(result, goal, device).dump();
 }
