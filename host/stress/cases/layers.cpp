@@ -133,6 +133,11 @@ void any_layers_and_samples(Probe& probe) {
                                                                         {"hidden", "hashed", "0.25"},
                                                                         {"hidden", "nearest", "0"},
                                                                         {"relevant", "nearest", "0"}}) {
+      if (choice.surfaces == "relevant" && makes_first_view_only(probe.technique())) {
+        // Planning refuses it (plan/relevant_map.h).
+        probe.passes_over("looks for another view, which a map of relevant surfaces does not serve");
+        continue;
+      }
       for (const int layers : {0, 1, 3, 64}) {
         for (const RunOptions& way : probe.ways_of_rare_settings()) {
           if (!probe.tries(
