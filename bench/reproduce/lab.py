@@ -88,7 +88,9 @@ class Lab:
         return self._run([str(c) for c in command], fine=fine)
 
     def bench(self, name, *arguments):
-        """The folder that `gloam bench ARGUMENTS` fills. Interrupted, it goes on with the frames and truths that are there."""
+        """The folder that `gloam bench ARGUMENTS` fills, however long it takes. Interrupted, it goes on with the frames and truths that are there."""
+        if not {"--paper", "--set", "--time"}.intersection(arguments):
+            arguments = (*arguments, "--all")
         place = self._place("bench", (name, *arguments)).with_name(f"bench-{name}")
         mark, words = place / "done", "\n".join(map(str, arguments)) + "\n"
         with self._alone_at(place):
