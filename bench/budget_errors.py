@@ -2,7 +2,7 @@
 """What `gloam auto --budget` chooses against the best fixed settings of equal time: the table of docs/choosing.md.
 
 python3 bench/budget_errors.py FOLDER [GLOAM [SIZE [SAMPLES [SCENE|FRAME ...]]]]    by default build/gloam, 480x270, 256 rays, eight scenes
-python3 bench/budget_errors.py FOLDER --table [GLOAM [SIZE [SAMPLES [SCENE ...]]]]  writes data/effect_errors.json instead
+python3 bench/budget_errors.py FOLDER --without TABLES [GLOAM ...]                  of each scene by TABLES/without-SCENE.json (bench/picture_fit.py)
 
 Every preset and resolution of every effect is run once for itself. Pictures of all combinations are composed from these planes, and the nearest to
 the picture of traced planes within the budget is the best fixed setting: found by brute force. Budgets are shares of the time of everything
@@ -11,6 +11,7 @@ everywhere at the preset medium. Needs the Python module (PYTHONPATH=build/pytho
 import itertools
 import json
 import math
+import os
 import pathlib
 import sys
 
@@ -25,8 +26,6 @@ PRESETS, RESOLUTIONS = ["low", "medium", "high", "ultra"], ["full", "half", "qua
 EFFECTS = {"ambient": [("evidence", "ao"), ("multi-bounce", "bounces")], "indirect": [("indirect", "indirect")],
            "reflection": [("sssr", "reflection")]}
 BUDGETS = [0.25, 0.5, 1]
-# Measured for the table only: light of the scene's own sky, in place of ambient light.
-ENVIRONMENT = ("environment", "environment")
 
 
 class Scene:
@@ -34,26 +33,22 @@ class Scene:
 
     def __init__(self, gloam_path, folder, name, size, samples):
         self.gloam, self.folder, self.name = gloam_path, folder, name
-        self.frame, self.sky = folder / f"{name}.exr", folder / f"{name}_sky.exr"
-        if not self.frame.exists() or not self.sky.exists():
+        self.frame = folder / f"{name}.exr"
+        if not self.frame.exists():
             planes = "depth,normal,color,albedo,metallic,ambient,roughness,reflectance,back_depth,instance"
-            call(gloam_path, "capture", name, "-o", self.frame, "--size", size, "--planes", planes, "--sky", self.sky)
+            call(gloam_path, "capture", name, "-o", self.frame, "--size", size, "--planes", planes)
         self.truth = {}
-        for kind in ("ao", "indirect", "reflection", "environment"):
+        for kind in ("ao", "indirect", "reflection"):
             path = folder / f"{name}_{kind}.exr"
             if not path.exists():
-                call(gloam_path, "reference", kind, self.frame, "-o", path, "--samples", samples, *self.light(kind))
+                call(gloam_path, "reference", kind, self.frame, "-o", path, "--samples", samples)
             self.truth[kind] = gloam.read(path, planes=[kind])[kind]
         own = gloam.read(self.frame, planes=["depth", "color", "albedo", "metallic", "ambient"])
         self.surface = numpy.isfinite(own["depth"])
         self.color, self.albedo, self.ambient, metallic = (self.at_surfaces(own[plane]) for plane in ("color", "albedo", "ambient", "metallic"))
         self.albedo *= 1 - metallic[:, None]
         self.true = {kind: self.at_surfaces(plane) for kind, plane in self.truth.items()}
-        self.under_the_sky = self.picture(self.true)
-        self.picture_of_truth = self.picture({kind: plane for kind, plane in self.true.items() if kind != "environment"})
-
-    def light(self, technique):
-        return ["--environment", self.sky] if technique == "environment" else []
+        self.picture_of_truth = self.picture(self.true)
 
     def at_surfaces(self, plane):
         return plane[self.surface].astype(float)
@@ -61,9 +56,7 @@ class Scene:
     def picture(self, parts):
         """As host/frame/composition.cpp has it."""
         picture = self.color.copy()
-        if "environment" in parts:
-            picture += self.albedo * parts["environment"] - self.ambient
-        elif "bounces" in parts and "indirect" not in parts:
+        if "bounces" in parts and "indirect" not in parts:
             picture += (parts["bounces"] - 1) * self.ambient
         elif "ao" in parts:
             picture += (parts["ao"][:, None] - 1) * self.ambient
@@ -73,14 +66,14 @@ class Scene:
             picture += parts["reflection"][:, :3]
         return picture
 
-    def error(self, parts, truth=None):
-        return math.sqrt(numpy.mean((self.picture(parts) - (self.picture_of_truth if truth is None else truth)) ** 2))
+    def error(self, parts):
+        return math.sqrt(numpy.mean((self.picture(parts) - self.picture_of_truth) ** 2))
 
     def run(self, technique, plane, preset, resolution):
         """The plane at surfaces, and the median time of seven runs, milliseconds on the device."""
         out = self.folder / f"{self.name}_result.exr"
         done = json.loads(call(self.gloam, "run", technique, self.frame, "-o", out, "--float", "--preset", preset, "--resolution", resolution,
-                               "--outputs", plane, "--repeat", 7, "--json", "-", *self.light(technique)))
+                               "--outputs", plane, "--repeat", 7, "--json", "-"))
         return self.at_surfaces(gloam.read(out, planes=[plane])[plane]), done["total_ms"]["median"]
 
     def options(self):
@@ -132,77 +125,36 @@ def told_in_words(told):
     return "; ".join(f"{' + '.join(c['outputs'])}, {c['preset']}, {RESOLUTIONS[c['resolution'] // 2]}" for c in told["chosen"]) or "nothing"
 
 
-def relative_errors(scenes):
-    """The error that an option brings to the picture, as a share of the error without the effect: root of the mean square over scenes."""
-    squares = {}
-    for scene in scenes:
-        for technique, plane in [techniques[0] for techniques in EFFECTS.values()] + [ENVIRONMENT]:
-            is_lit = plane == "environment"
-            truth = scene.under_the_sky if is_lit else scene.picture_of_truth
-            others = {kind: values for kind, values in scene.true.items() if kind != plane and (is_lit or kind != "environment")}
-            if is_lit:
-                del others["ao"]
-            without = scene.error(others, truth)
-            if without == 0:
-                continue
-            for preset, resolution in itertools.product(PRESETS, RESOLUTIONS):
-                error = scene.error({**others, plane: scene.run(technique, plane, preset, resolution)[0]}, truth)
-                squares.setdefault(f"{technique}, {preset}, {resolution}", []).append((error / without) ** 2)
-    return {label: round(math.sqrt(sum(values) / len(values)), 3) for label, values in squares.items()}
-
-
-def changes(scenes, before):
-    """How much more an effect changes the true picture than the glance of gloam auto sees: geometric mean over scenes. gloam auto tells changes that
-    it has multiplied by what the table said before."""
-    logarithms = {}
-    for scene in scenes:
-        true = {kind: values for kind, values in scene.true.items() if kind != "environment"}
-        told = scene.automatic("--error", "1000")[1]
-        for effect in told["effects"]:
-            plane = {techniques[0][0]: techniques[0][1] for techniques in EFFECTS.values()}.get(effect["technique"])
-            without = plane and scene.error({kind: values for kind, values in true.items() if kind != plane})
-            if without and effect["change"]:
-                logarithms.setdefault(effect["technique"], []).append(math.log(without / effect["change"]))
-    return {technique: round(before.get(technique, 1) * math.exp(sum(values) / len(values)), 2) for technique, values in logarithms.items()}
-
-
-def write_table(scenes):
-    path = pathlib.Path(__file__).parent.parent / "data" / "effect_errors.json"
-    scenes = list(scenes)
-    before = json.loads(path.read_text())["true_per_seen_change"]
-    table = {"relative_errors": relative_errors(scenes), "true_per_seen_change": changes(scenes, before)}
-    path.write_text(json.dumps(table, indent=2) + "\n")
-    print(f"wrote {path}")
-
-
-def print_budgets(scenes):
-    print("| frame | everything, ms | error | budget, ms | auto: error | ms | looking, ms | best fixed: error | ms | more than best | choice |")
-    print("|---|" + "---:|" * 9 + "---|")
+def print_budgets(scenes, tables):
+    print("| frame | everything, ms | error | budget, ms | auto: error | ms | looking, ms | expected | best fixed: error | ms | more than best | choice |")
+    print("|---|" + "---:|" * 10 + "---|")
     for scene in scenes:
         options = scene.options()
+        if tables:
+            os.environ["GLOAM_EFFECT_ERRORS"] = str(tables / f"without-{scene.name}.json")
         everything = [option for effect, (technique, _) in zip(options, (t[0] for t in EFFECTS.values())) for option in options[effect]
                       if option[0] == f"{technique}, medium, full"]
         all_ms = sum(option[1] for option in everything)
         all_error = scene.error({plane: values for option in everything for plane, values in option[2].items()})
         error, told = scene.automatic("--repeat", "7")
         print(f"| {scene.name} | {all_ms:.1f} | {all_error:.4f} | none | {error:.4f} | {told['total_ms']:.1f} | "
-              f"{told['classify_ms'] + told['glance_ms']:.1f} | | | | {told_in_words(told)}, {100 * (1 - told['total_ms'] / all_ms):.0f} % saved |",
+              f"{told['classify_ms'] + told['glance_ms']:.1f} | | | | | {told_in_words(told)}, {100 * (1 - told['total_ms'] / all_ms):.0f} % saved |",
               flush=True)
         budgets = [share * all_ms for share in BUDGETS]
         for budget, best in zip(budgets, scene.best_fixed(options, budgets)):
             error, told = scene.automatic("--budget", f"{budget:.4f}ms")
             print(f"| {scene.name} | {all_ms:.1f} | {all_error:.4f} | {budget:.1f} | {error:.4f} | {told['total_ms']:.1f} | "
-                  f"{told['classify_ms'] + told['glance_ms']:.1f} | {best[0]:.4f} | {best[1]:.1f} | {100 * (error / best[0] - 1):.0f} % | "
+                  f"{told['classify_ms'] + told['glance_ms']:.1f} | {told['expected_error']:.4f} | {best[0]:.4f} | {best[1]:.1f} | {100 * (error / best[0] - 1):.0f} % | "
                   f"{told_in_words(told)} (best: {best[2]}) |", flush=True)
 
 
 def main(folder, *arguments):
-    makes_table = arguments[:1] == ("--table",)
-    gloam_path, size, samples, *names = (*arguments[makes_table:], *("build/gloam", "480x270", "256")[len(arguments[makes_table:]):])
+    tables = pathlib.Path(arguments[1]) if arguments[:1] == ("--without",) else None
+    arguments = arguments[2:] if tables else arguments
+    gloam_path, size, samples, *names = (*arguments, *("build/gloam", "480x270", "256")[len(arguments):])
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    scenes = (Scene(gloam_path, folder, name, size, samples) for name in names or SCENES)
-    write_table(scenes) if makes_table else print_budgets(scenes)
+    print_budgets((Scene(gloam_path, folder, name, size, samples) for name in names or SCENES), tables)
 
 
 if __name__ == "__main__":

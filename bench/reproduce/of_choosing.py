@@ -5,17 +5,18 @@ from recipes import SCENES, rows_printed
 
 PAGE = "docs/choosing.md"
 OF_BUDGETS = ("gallery", "courtyard", "lounge", "temple", "corridor", "colonnade", "banquet", "statue")
-INTERVALS = (MACHINE, ERROR, MACHINE, MACHINE, MACHINE, CHANGING, CHANGING)
+INTERVALS = (MACHINE, ERROR, MACHINE, MACHINE, MACHINE, CHANGING, CHANGING, CHANGING)
 
 
-@table(PAGE, "How good the choice is", minutes=60, within=lambda row, column: INTERVALS[min(column, 6)])
+@table(PAGE, "How good the choice is", minutes=150, within=lambda row, column: INTERVALS[min(column, 7)])
 def budgets(lab):
-    folder, rows = lab.folder_for("budgets"), []
+    folder, tables, rows = lab.folder_for("budgets"), lab.folder_for("picture-fit"), []
+    lab.program("picture_fit.py", tables, "--each", lab.gloam)
     for scene in OF_BUDGETS:
-        printed = rows_printed(lab.program("budget_errors.py", folder, lab.gloam, "480x270", 128, scene))
+        printed = rows_printed(lab.program("budget_errors.py", folder, "--without", tables, lab.gloam, "480x270", 128, scene))
         for _, cells in [row for row in printed if row[0] == scene][1:]:  # the first is without a budget
-            everything, its_error, budget, error, ms, looking, best = (cell[0] for cell in cells[:7])
-            rows.append([everything, its_error, budget, ms, looking, error, best, None])
+            everything, its_error, budget, error, ms, looking, expected, best = (cell[0] for cell in cells[:8])
+            rows.append([everything, its_error, budget, ms, looking, error, expected, best, None])
     return rows
 
 

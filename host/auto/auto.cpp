@@ -178,7 +178,7 @@ AutoResult compute_effects(AutoPlan& planned, const AutoSettings& settings, cons
   AutoResult result{.frame = without_planes(frame)};
   ProbedMasks masks;
   const auto probe_for = [&](const Candidate& candidate) {
-    return EffectProbe{candidate.asked, frame, available, holds, device, options, {}, &masks};
+    return EffectProbe{candidate.asked, frame, available, holds, device, options, {}, {}, &masks};
   };
   std::optional<Glance> glance;
   if (!settings.fixed && !planned.candidates.possible.empty() && contains(available, "color") &&
@@ -194,6 +194,8 @@ AutoResult compute_effects(AutoPlan& planned, const AutoSettings& settings, cons
     }
     const double change = glance ? change_by(*candidate.technique, *glance) : not_known;
     if (!std::isnan(change)) probe.change = change / std::max(glance->rms(), 1e-30);
+    if (!std::isnan(change) && settings.mask != MaskUse::always)
+      probe.seen_share = glance->share_of(candidate.technique->effect.changes);
     Outcome outcome = decided(*candidate.technique, settings, probe);
     outcome.change = change;
     if (settings.purpose.explains && glance) add_changes(outcome, *glance);

@@ -148,6 +148,10 @@ EffectChoice choose(const Technique& technique, const EffectProbe& probe) {
   if (effect.mask.empty()) {
     choice.share = 1;
     choice.is_everywhere = true;
+  } else if (probe.seen_share && *probe.seen_share > effect.most_share) {
+    // The look tells that a mask cannot pay, so none is probed.
+    choice.share = *probe.seen_share;
+    choice.is_everywhere = true;
   } else {
     probe_mask(choice, probe, effect.probe, effect.probe_resolution);
     choice.is_everywhere = choice.share > effect.most_share;

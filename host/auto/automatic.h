@@ -31,6 +31,8 @@ struct EffectProbe {
   const RunOptions& options;
   /// RMS change of the picture by the effect, as a share of the picture's RMS; none: not known.
   std::optional<double> change = {};
+  /// Share of the image where a look has seen the effect; none: it was not looked at.
+  std::optional<double> seen_share = {};
   ProbedMasks* masks = nullptr;  ///< of this frame, from other effects; null: none are kept
 };
 

@@ -16,12 +16,6 @@ namespace {
 /// More rounds than options of one effect are never needed; this bounds a device whose times jump.
 constexpr int most_rounds = 24;
 
-/// An option's error beside the one of the effect's sign and size, which the glance's losses hold already.
-double unsigned_error(const Technique& technique, const EffectOption& option) {
-  const double missing = 1 - 1 / true_per_seen_change(technique);
-  return std::sqrt(std::max(0.0, option.relative_error * option.relative_error - missing * missing));
-}
-
 /// One round of measuring: what was measured on the frame, and by how much the table was wrong.
 class Spending {
  public:
@@ -34,17 +28,15 @@ class Spending {
         corrections_(effects.size(), 1) {}
 
   ChoiceProblem problem() const {
-    ChoiceProblem problem{.looking_ms = looking_ms_};
+    const Glance& glance = means_.glance;
+    ChoiceProblem problem{.model = glance.model(), .looking_ms = looking_ms_};
+    problem.uses = [&glance](const std::vector<std::string>& made) { return glance.used(made); };
     for (size_t i = 0; i < effects_.size(); ++i) {
       problem.effects.emplace_back();
-      for (size_t k = 0; k < effects_[i].options.size(); ++k) {
-        const EffectOption& option = effects_[i].options[k];
-        problem.effects.back().push_back({option.makes, ms_with_its_part(i, int(k)), option.relative_error,
-                                          unsigned_error(*effects_[i].technique, option)});
-      }
-      problem.loss_without.push_back(effects_[i].without);
+      for (size_t k = 0; k < effects_[i].options.size(); ++k)
+        problem.effects.back().push_back(
+            {effects_[i].options[k].planes_on(glance.seen()), ms_with_its_part(i, int(k))});
     }
-    problem.loss_with = [this](const std::vector<std::string>& planes) { return means_.glance.loss_with(planes); };
     return problem;
   }
 
@@ -153,6 +145,17 @@ std::string label_of(const std::vector<BudgetedEffect>& effects, const std::vect
   return labels.empty() ? "no effect" : fmt::format("{}", fmt::join(labels, " + "));
 }
 
+/// How far the planes of the choice are from those of the best option.
+double lost_by(const BudgetedEffect& effect, const Glance& glance) {
+  if (effect.chosen == left_out) return effect.change;
+  const EffectOption& option = effect.options[size_t(effect.chosen)];
+  const std::vector<std::string>& used = glance.used(option.makes);
+  std::vector<UsedPlane> planes = option.planes_on(glance.seen());
+  std::erase_if(planes, [&](const UsedPlane& plane) { return !contains(used, plane.plane); });
+  for (UsedPlane& plane : planes) plane.kept = 1 - plane.kept;
+  return std::sqrt(mean_square_change(glance.model(), planes));
+}
+
 /// What the picture changes by an effect's planes, by any of its options.
 double change_by(const BudgetedEffect& effect, const Glance& glance) {
   std::vector<std::string> planes;
@@ -163,7 +166,7 @@ double change_by(const BudgetedEffect& effect, const Glance& glance) {
 }  // namespace
 
 Spent spend(std::vector<BudgetedEffect>& effects, const Goal& goal, const BudgetMeans& means, OptionSpeeds& speeds) {
-  for (BudgetedEffect& effect : effects) effect.without = change_by(effect, means.glance);
+  for (BudgetedEffect& effect : effects) effect.change = change_by(effect, means.glance);
   expect_times(effects, means, speeds);
   Spent spent;
   Spending spending(effects, means, speeds);
@@ -180,10 +183,7 @@ Spent spend(std::vector<BudgetedEffect>& effects, const Goal& goal, const Budget
   name_cheapest(effects, problem, spent);
   const bool any = std::any_of(effects.begin(), effects.end(), [](const auto& e) { return e.chosen != left_out; });
   if (goal.ms && !any && !effects.empty()) spent.is_missed = true;
-  for (BudgetedEffect& effect : effects) {
-    const bool is_left_out = effect.chosen == left_out;
-    effect.lost = effect.without * (is_left_out ? 1 : effect.options[size_t(effect.chosen)].relative_error);
-  }
+  for (BudgetedEffect& effect : effects) effect.lost = lost_by(effect, means.glance);
   speeds.keep();
   return spent;
 }

@@ -26,9 +26,9 @@ struct BudgetedEffect {
   double ms = 0;           ///< as measured on this frame, the median of three runs
   RunResult result;
   Plan plan;
-  double lost =
-      0;  ///< expected RMS error of the picture that the choice for this effect brings, or that leaving it out does
-  double without = 0;  ///< RMS change of the true picture by the effect, as expected
+  /// RMS difference between the picture by the choice for this effect and by its best option, as expected: `change` if it is left out.
+  double lost = 0;
+  double change = 0;  ///< RMS change of the picture by the effect, as expected of its best option
 };
 
 /// What spending a budget needs besides the effects.

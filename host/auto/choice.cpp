@@ -3,19 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/lists.h"
 #include "planner/reason.h"
 
 namespace gloam {
 namespace {
 
-std::vector<std::string> planes_of(const ChoiceProblem& problem, const std::vector<int>& options) {
-  std::vector<std::string> planes;
+std::vector<UsedPlane> used_by(const ChoiceProblem& problem, const std::vector<int>& options) {
+  std::vector<UsedPlane> planes;
   for (size_t i = 0; i < options.size(); ++i) {
     if (options[i] == left_out) continue;
     const auto& made = problem.effects[i][size_t(options[i])].makes;
     planes.insert(planes.end(), made.begin(), made.end());
   }
-  std::sort(planes.begin(), planes.end());
+  if (!problem.uses) return planes;
+  std::vector<std::string> names;
+  for (const UsedPlane& plane : planes) names.push_back(plane.plane);
+  std::sort(names.begin(), names.end());
+  const std::vector<std::string> used = problem.uses(names);
+  std::erase_if(planes, [&](const UsedPlane& plane) { return !contains(used, plane.plane); });
   return planes;
 }
 
@@ -30,14 +36,13 @@ std::vector<int> options_of(const ChoiceProblem& problem, size_t number) {
   return options;
 }
 
-/// Of every choice. How far its error may be off is told by what it would be without luck.
 std::vector<Figures> figures_of_all(const ChoiceProblem& problem) {
   size_t count = 1;
   for (const auto& effect : problem.effects) count *= effect.size() + 1;
   std::vector<Figures> all;
   for (size_t i = 0; i < count; ++i) {
     const Choice choice = figures_of(problem, options_of(problem, i));
-    all.push_back({choice.ms, choice.error, choice.without_luck});
+    all.push_back({choice.ms, choice.error, choice.uncertainty});
   }
   return all;
 }
@@ -46,20 +51,11 @@ std::vector<Figures> figures_of_all(const ChoiceProblem& problem) {
 
 Choice figures_of(const ChoiceProblem& problem, const std::vector<int>& options) {
   Choice choice{options, problem.looking_ms, 0, 0};
-  double squares = std::pow(problem.loss_with(planes_of(problem, options)), 2), squares_of_each = 0;
-  for (size_t i = 0; i < options.size(); ++i) {
-    const double without = problem.loss_without[i];
-    if (options[i] == left_out) {
-      squares_of_each += without * without;
-      continue;
-    }
-    const OptionFigures& option = problem.effects[i][size_t(options[i])];
-    choice.ms += option.ms;
-    squares += std::pow(option.unsigned_error * without, 2);
-    squares_of_each += std::pow(option.relative_error * without, 2);
-  }
-  choice.error = std::sqrt(squares);
-  choice.without_luck = std::sqrt(squares_of_each);
+  for (size_t i = 0; i < options.size(); ++i)
+    if (options[i] != left_out) choice.ms += problem.effects[i][size_t(options[i])].ms;
+  const ExpectedSquare expected = expected_square(problem.model, used_by(problem, options));
+  choice.error = std::sqrt(expected.square);
+  choice.uncertainty = choice.error > 0 ? expected.deviation / (2 * choice.error) : 0;
   return choice;
 }
 

@@ -7,26 +7,22 @@
 #include <vector>
 
 #include "planner/figures.h"
+#include "planner/picture_model.h"
 
 namespace gloam {
 
 /// A way to compute an effect.
 struct OptionFigures {
-  std::vector<std::string> makes;  ///< planes that the picture takes: {"ao"}
-  double ms = 0;                   ///< on the device
-  /// RMS error of the picture by this option alone, as a share of the error of a picture without the effect.
-  double relative_error = 0;
-  double unsigned_error = 0;  ///< the part of it that `ChoiceProblem::loss_with` does not hold
+  std::vector<UsedPlane> makes;  ///< planes that the picture takes
+  double ms = 0;                 ///< on the device
 };
 
-/// The options of each effect, and what the picture loses.
+/// The options of each effect, and what the picture gains by them.
 struct ChoiceProblem {
   std::vector<std::vector<OptionFigures>> effects;
-  /// RMS difference between the picture of these planes alone, sorted by name, and the true picture of everything. Asked for every
-  /// combination of options.
-  std::function<double(const std::vector<std::string>& planes)> loss_with;
-  /// Of each effect: RMS difference between the picture of everything and the one without the effect.
-  std::vector<double> loss_without;
+  PictureModel model;
+  /// Of planes that options make, sorted, those that the picture uses (gloam/composition.h); null: all of them.
+  std::function<std::vector<std::string>(const std::vector<std::string>& made)> uses;
   double looking_ms = 0;  ///< what looking has taken, whatever is chosen
 };
 
@@ -34,17 +30,15 @@ struct Choice {
   std::vector<int> options;  ///< by effect; `left_out`: the effect is not computed
   double ms = 0;             ///< sum over effects, with looking
   double error = 0;          ///< expected RMS error of the picture
-  double without_luck = 0;   ///< the same if errors of different effects never cancelled
+  double uncertainty = 0;    ///< standard deviation of that
 };
 
 inline constexpr int left_out = -1;
 
-/// What a choice takes, and the error of its picture: what is left out, and the errors of what is computed, added as squares, since they
-/// have different causes.
+/// What a choice takes, and the error that is expected of its picture.
 Choice figures_of(const ChoiceProblem& problem, const std::vector<int>& options);
 
-/// Of all choices the one that the goal asks for (`planner/figures.h`); none if no choice is within it. Errors of different effects may
-/// cancel, which is luck in part: a choice is the surer, the less it relies on that.
+/// Of all choices the one that the goal asks for (`planner/figures.h`); none if no choice is within it.
 std::optional<Choice> best_within(const ChoiceProblem& problem, const Goal& goal);
 
 /// The choice that misses the goal least.

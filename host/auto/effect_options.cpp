@@ -1,35 +1,16 @@
 #include "auto/effect_options.h"
 
-#include <nlohmann/json.hpp>
+#include <algorithm>
 
 #include "base/lists.h"
 #include "gloam/composition.h"
-#include "technique/data_files.h"
 
 namespace gloam {
 namespace {
 
-/// Of an option that nothing was measured for.
-constexpr double unmeasured_error = 0.6;
-
 const Technique& measured_like(const Technique& technique) {
   const std::string& refined = technique.effect.refines;
   return refined.empty() ? technique : find_technique(refined);
-}
-
-const nlohmann::json& measured_figures() {
-  static const nlohmann::json table = nlohmann::json::parse(data_files().at("effect_errors.json"));
-  return table;
-}
-
-/// What refines another is not measured, and that one's figures stand for it. What completes an effect changes no error of its planes.
-double measured_error(const EffectOption& option, const Technique& technique) {
-  const nlohmann::json& errors = measured_figures().at("relative_errors");
-  for (const std::string& name : {technique.name, measured_like(technique).name}) {
-    const auto found = errors.find(fmt::format("{}, {}", name, option.setting()));
-    if (found != errors.end()) return *found;
-  }
-  return unmeasured_error;
 }
 
 std::vector<std::string> presets_of(const Technique& technique, const PlanRequest& asked) {
@@ -71,8 +52,10 @@ bool complete(EffectOption& option, const Technique& technique, const EffectProb
 
 }  // namespace
 
-double true_per_seen_change(const Technique& technique) {
-  return measured_figures().at("true_per_seen_change").value(technique.name, 1.0);
+std::vector<UsedPlane> EffectOption::planes_on(const SeenChanges& seen) const {
+  std::vector<UsedPlane> planes;
+  for (const std::string& plane : makes) planes.push_back(plane_by(plane, request.preset, request.resolution, seen));
+  return planes;
 }
 
 std::vector<EffectOption> options_of(const Technique& technique, const EffectProbe& probe) {
@@ -85,7 +68,6 @@ std::vector<EffectOption> options_of(const Technique& technique, const EffectPro
         option.request.preset = preset;
         option.request.resolution = resolution;
         if (!complete(option, technique, probe)) continue;
-        option.relative_error = measured_error(option, technique);
         options.push_back(std::move(option));
       }
     }

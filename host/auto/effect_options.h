@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "auto/automatic.h"
+#include "planner/picture_model.h"
 #include "planner/plan_option.h"
 
 namespace gloam {
@@ -12,13 +13,10 @@ namespace gloam {
 /// Its request is for all pixels.
 struct EffectOption : PlanOption {
   std::vector<std::string> makes;  ///< planes that the picture takes
-  /// RMS error of the picture by this option as a share of the error of a picture without the effect (data/effect_errors.json).
-  double relative_error = 1;
-};
 
-/// How much more an effect changes the true picture than a glance sees: light also comes from what the image does not show
-/// (data/effect_errors.json).
-double true_per_seen_change(const Technique& technique);
+  /// What is expected of each of these planes on the frame that was looked at.
+  std::vector<UsedPlane> planes_on(const SeenChanges& seen) const;
+};
 
 /// All options of an effect that the frame calls for. `technique`: what runs for it, which may refine the effect's. A preset or a
 /// resolution that was asked for stands. Options whose plan the frame does not allow are left out.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "auto/changes.h"
 #include "base/lists.h"
 #include "base/statistics.h"
 #include "frame/subsample.h"
@@ -15,28 +16,40 @@ namespace {
 constexpr int least_side = 48;
 constexpr int most_scale = 4;  // a power of two, as tiles of pictures are
 
-/// The planes of a frame that composing reads, as a frame of their own.
-Frame with_planes(const Frame& frame, const std::vector<std::string>& planes) {
-  Frame copy = without_planes(frame);
-  for (size_t i = 0; i < frame.views.size(); ++i) {
-    for (const std::string& name : planes)
-      if (const Plane* plane = frame.views[i].find(name)) copy.views[i].planes[name] = plane->clone();
-  }
-  return copy;
-}
+/// A side of the tiles of a glance, pixels: 16 of the frame, as masks have them.
+constexpr int side_of_tile = 4;
+/// A value that is nearer to where nothing is does not count.
+constexpr float least_value = 0.01f;
 
-/// A plane that changes the picture so many times as much. None becomes negative.
-Plane scaled(const Plane& plane, double factor) {
-  const float unchanged = plane_kind(plane.name).outside;
-  Plane result = plane.clone();
-  for (Channel& channel : result.channels) {
-    for (int y = 0; y < channel.layout().height; ++y) {
-      float* row = channel.row(y);
-      for (int x = 0; x < channel.layout().width; ++x)
-        row[x] = std::max(0.0f, unchanged + float(factor) * (row[x] - unchanged));
+double mean_square(const Frame& picture, const Frame& frame) {
+  double squares = 0, count = 0;
+  for (size_t v = 0; v < picture.views.size(); ++v) {
+    const Channel& depth = frame.views[v].find("depth")->channels.front();
+    for (const Channel& channel : picture.views[v].find("color")->channels) {
+      for (int y = 0; y < picture.height(); ++y) {
+        for (int x = 0; x < picture.width(); ++x) {
+          const double value = channel.at(x, y);
+          if (is_background(depth.at(x, y)) || !std::isfinite(value)) continue;
+          squares += value * value;
+          ++count;
+        }
+      }
     }
   }
-  return result;
+  return count > 0 ? squares / count : 0;
+}
+
+/// Whether any pixel of a tile is not as where nothing is.
+bool shows(const Plane& plane, int left, int top) {
+  const float outside = plane_kind(plane.name).outside;
+  const Layout& layout = plane.channels.front().layout();
+  // Of a reflection the light, not the share that was found.
+  for (size_t c = 0; c < std::min<size_t>(plane.channels.size(), 3); ++c) {
+    for (int y = top; y < std::min(top + side_of_tile, layout.height); ++y)
+      for (int x = left; x < std::min(left + side_of_tile, layout.width); ++x)
+        if (std::fabs(plane.channels[c].at(x, y) - outside) > least_value) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -50,11 +63,9 @@ int scale_of_glance(const Frame& frame) {
 Glance::Glance(const Frame& frame, ComposeOptions how)
     : how_(std::move(how)),
       small_(every_nth_pixel(frame, scale_of_glance(frame), common_planes(frame))),
-      parts_(without_planes(small_)),
-      expected_(without_planes(small_)),
-      whole_(with_planes(small_, planes_to_compose())) {}
+      parts_(without_planes(small_)) {}
 
-void Glance::look(const Plan& plan, double true_per_seen, Device& device, const RunOptions& options) {
+void Glance::look(const Plan& plan, Device& device, const RunOptions& options) {
   RunOptions thrice = options;
   thrice.repeat = 3;
   RunResult result = run(plan, small_, device, thrice);
@@ -63,67 +74,49 @@ void Glance::look(const Plan& plan, double true_per_seen, Device& device, const 
     for (const std::string& name : part_planes()) {
       const auto found = view.planes.find(name);
       if (found == view.planes.end()) continue;
-      expected_.view(view.name).planes[name] = scaled(found->second, true_per_seen);
       parts_.view(view.name).planes[name] = std::move(found->second);
       add_new(planes_, name);
     }
   }
   std::sort(planes_.begin(), planes_.end());
-  whole_ = picture_of(expected_, planes_);
-  losses_.clear();
+  is_seen_ = false;
 }
 
-Frame Glance::picture_of(const Frame& parts, const std::vector<std::string>& planes) const {
-  Frame colour = with_planes(small_, planes_to_compose());
-  if (!planes.empty()) compose(colour, with_planes(parts, planes), how_);
-  return colour;
+Frame Glance::picture_of(const std::vector<std::string>& planes) const {
+  return composed(small_, parts_, planes, how_);
 }
 
-double Glance::rms_between(const Frame& a, const Frame* b) const {
-  double squares = 0, count = 0;
-  for (size_t v = 0; v < a.views.size(); ++v) {
-    const Channel& depth = small_.views[v].find("depth")->channels.front();
-    const Plane& color = *a.views[v].find("color");
-    const Plane* other = b ? b->views[v].find("color") : nullptr;
-    for (size_t c = 0; c < color.channels.size(); ++c) {
-      for (int y = 0; y < a.height(); ++y) {
-        const float* row = color.channels[c].row(y);
-        const float* other_row = other ? other->channels[c].row(y) : nullptr;
-        for (int x = 0; x < a.width(); ++x) {
-          const double difference = row[x] - (other_row ? other_row[x] : 0);
-          if (is_background(depth.at(x, y)) || !std::isfinite(difference)) continue;
-          squares += difference * difference;
-          ++count;
-        }
-      }
-    }
-  }
-  return count > 0 ? std::sqrt(squares / count) : 0;
+void Glance::see() const {
+  if (is_seen_) return;
+  seen_ = seen_in(changes_of(small_, parts_, planes_, how_), small_);
+  model_ = model_of(seen_);
+  is_seen_ = true;
 }
 
-double Glance::rms() const { return rms_between(whole_, nullptr); }
-
-double Glance::loss_with(const std::vector<std::string>& planes) const {
-  const auto known = losses_.find(planes);
-  if (known != losses_.end()) return known->second;
-  const Frame picture = picture_of(parts_, planes);
-  return losses_[planes] = rms_between(picture, &whole_);
+const SeenChanges& Glance::seen() const {
+  see();
+  return seen_;
 }
 
-std::vector<std::string> Glance::without(const std::vector<std::string>& planes) const {
-  std::vector<std::string> others = planes_;
-  std::erase_if(others, [&](const std::string& plane) { return contains(planes, plane); });
-  return others;
+const PictureModel& Glance::model() const {
+  see();
+  return model_;
 }
+
+double Glance::rms() const { return std::sqrt(mean_square(picture_of(planes_), small_)); }
 
 double Glance::change_by(const std::vector<std::string>& planes) const {
-  const Frame picture = picture_of(expected_, without(planes));
-  return rms_between(picture, &whole_);
+  std::vector<UsedPlane> best;
+  for (const std::string& plane : used(planes_))
+    if (contains(planes, plane)) best.push_back({plane});
+  return std::sqrt(mean_square_change(model(), best));
 }
 
 Plane Glance::changes_by(const std::vector<std::string>& planes, const std::string& view) const {
-  const Frame picture = picture_of(expected_, without(planes));
-  const Plane &with = *whole_.view(view).find("color"), &left = *picture.view(view).find("color");
+  std::vector<std::string> others = planes_;
+  std::erase_if(others, [&](const std::string& plane) { return contains(planes, plane); });
+  const Frame whole = picture_of(planes_), picture = picture_of(others);
+  const Plane &with = *whole.view(view).find("color"), &left = *picture.view(view).find("color");
   const double unit = std::max(rms(), 1e-30);
   Channel change(with.channels.front().layout(), 0);
   for (int y = 0; y < change.layout().height; ++y) {
@@ -137,6 +130,28 @@ Plane Glance::changes_by(const std::vector<std::string>& planes, const std::stri
   Plane result{"change", {}};
   result.channels.push_back(std::move(change));
   return result;
+}
+
+const std::vector<std::string>& Glance::used(const std::vector<std::string>& made) const {
+  const auto known = used_.find(made);
+  if (known != used_.end()) return known->second;
+  const Composition composition = composition_of(common_planes(small_), made, how_);
+  std::vector<std::string> planes;
+  for (const ComposedPart& part : composition.parts)
+    if (part.is_used) planes.push_back(part.plane);
+  return used_[made] = planes;
+}
+
+double Glance::share_of(const std::string& plane) const {
+  double showing = 0, all = 0;
+  for (const View& view : parts_.views) {
+    const Plane* found = view.find(plane);
+    if (!found) continue;
+    for (int y = 0; y < parts_.height(); y += side_of_tile) {
+      for (int x = 0; x < parts_.width(); x += side_of_tile, ++all) showing += shows(*found, x, y);
+    }
+  }
+  return all > 0 ? showing / all : 0;
 }
 
 }  // namespace gloam

@@ -10,6 +10,7 @@
 #include "gloam/frame.h"
 #include "gloam/plan.h"
 #include "gloam/run.h"
+#include "planner/picture_model.h"
 
 namespace gloam {
 
@@ -22,38 +23,42 @@ class Glance {
   /// `frame`: normalised, with the planes that effects and the picture need.
   Glance(const Frame& frame, ComposeOptions how);
 
-  /// Computes a plan on few pixels and takes its planes that belong to a picture. `true_per_seen`: how much more the effect changes the
-  /// true picture than these planes do. Throws as `run` does.
-  void look(const Plan& plan, double true_per_seen, Device& device, const RunOptions& options);
+  /// Computes a plan on few pixels and takes its planes that belong to a picture. Throws as `run` does.
+  void look(const Plan& plan, Device& device, const RunOptions& options);
 
   /// Planes of the picture that are known, sorted.
   const std::vector<std::string>& planes() const { return planes_; }
-  /// RMS over surfaces of the expected true picture's colour: of all channels.
+  /// RMS over surfaces of the picture of all that is known: of all channels.
   double rms() const;
-  /// RMS difference between the picture of these planes alone, as they were seen, and the expected true picture. Errors of planes that
-  /// have one sign, such as too little light from what the image does not show, are in it. Kept: a choice asks again and again.
-  double loss_with(const std::vector<std::string>& planes) const;
-  /// RMS change of the expected true picture by these planes.
+  /// What was seen of the changes by each plane alone.
+  const SeenChanges& seen() const;
+  /// What is expected of these changes and of the true picture.
+  const PictureModel& model() const;
+  /// RMS change of the picture of everything by an effect's planes, as its best option is expected to make it.
   double change_by(const std::vector<std::string>& planes) const;
-  /// For each pixel of the glance, how far the expected true picture changes by these planes, in shares of its RMS.
+  /// For each pixel of the glance, how far these planes change the picture, in shares of its RMS.
   Plane changes_by(const std::vector<std::string>& planes, const std::string& view) const;
+  /// Of planes that are made, those that the picture uses. Kept: a choice asks again and again.
+  const std::vector<std::string>& used(const std::vector<std::string>& made) const;
+  /// Share of tiles of 4 x 4 pixels of the glance where a plane is not as where nothing is.
+  double share_of(const std::string& plane) const;
   /// Device time so far.
   double ms() const { return ms_; }
   /// The frame's planes on few pixels.
   const Frame& small() const { return small_; }
 
  private:
-  Frame picture_of(const Frame& parts, const std::vector<std::string>& planes) const;
-  double rms_between(const Frame& a, const Frame* b) const;
-  std::vector<std::string> without(const std::vector<std::string>& planes) const;
+  Frame picture_of(const std::vector<std::string>& planes) const;
+  void see() const;
 
   ComposeOptions how_;
-  Frame small_;     ///< all planes of the frame
-  Frame parts_;     ///< planes of effects, as they were seen
-  Frame expected_;  ///< the same, scaled to what the true ones change
-  Frame whole_;     ///< the expected true picture
+  Frame small_;  ///< all planes of the frame
+  Frame parts_;  ///< planes of effects, as they were seen
   std::vector<std::string> planes_;
-  mutable std::map<std::vector<std::string>, double> losses_;  ///< by planes
+  mutable SeenChanges seen_;
+  mutable PictureModel model_;
+  mutable bool is_seen_ = false;
+  mutable std::map<std::vector<std::string>, std::vector<std::string>> used_;  ///< by planes that are made
   double ms_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "base/lists.h"
 #include "base/statistics.h"
@@ -13,7 +14,7 @@ namespace {
 constexpr double unlooked_at = std::numeric_limits<double>::quiet_NaN();
 
 /// The effect at its cheapest, with all that completes it.
-Plan plan_of_glance(const Technique& technique, const EffectProbe& probe) {
+PlanRequest request_of_glance(const Technique& technique, const EffectProbe& probe) {
   PlanRequest request = request_everywhere(technique, probe.asked);
   request.resolution = 1;
   request.with.clear();
@@ -26,7 +27,40 @@ Plan plan_of_glance(const Technique& technique, const EffectProbe& probe) {
     });
     if (has_all) request.outputs.push_back(more->name);
   }
-  return make_plan(with_known_settings(technique, request, probe.available, probe.holds), probe.available, probe.holds);
+  return with_known_settings(technique, request, probe.available, probe.holds);
+}
+
+/// One request for what two ask for; none if they differ in more than techniques and these' own settings.
+std::optional<PlanRequest> joined(const std::optional<PlanRequest>& a, const PlanRequest& b) {
+  if (!a || a->preset != b.preset || a->filter != b.filter || a->radius != b.radius) return {};
+  PlanRequest both = *a;
+  add_new(both.outputs, b.outputs);
+  for (const auto& setting : b.settings)
+    if (std::find(both.settings.begin(), both.settings.end(), setting) == both.settings.end())
+      both.settings.push_back(setting);
+  return both;
+}
+
+/// Plans for the looks at these effects: one for all where their passes go together, so that they share what each needs (normals, the
+/// frame's planes on the device).
+std::vector<Plan> plans_of_glance(const std::vector<const Candidate*>& candidates, const ProbeFor& probe_for) {
+  std::vector<PlanRequest> requests;
+  for (const Candidate* candidate : candidates)
+    requests.push_back(request_of_glance(*candidate->technique, probe_for(*candidate)));
+  const EffectProbe first = probe_for(*candidates.front());
+  std::optional<PlanRequest> all = requests.front();
+  for (size_t i = 1; i < requests.size(); ++i) all = joined(all, requests[i]);
+  std::vector<Plan> plans;
+  if (all && requests.size() > 1) {
+    try {
+      plans.push_back(make_plan(*all, first.available, first.holds));
+      return plans;
+    } catch (const UsageError&) {
+      // Settings or planes of one are another's too: each gets a plan of its own.
+    }
+  }
+  for (const PlanRequest& request : requests) plans.push_back(make_plan(request, first.available, first.holds));
+  return plans;
 }
 
 std::vector<std::string> planes_of(const Technique& technique) {
@@ -48,7 +82,7 @@ BudgetedEffect budgeted(const Candidate& candidate, const Outcome& outcome, bool
 }
 
 void take_budgeted(BudgetedEffect& effect, Outcome& outcome, Frame& out) {
-  outcome.change = effect.without;
+  outcome.change = effect.change;
   outcome.lost = effect.lost;
   if (effect.chosen == left_out) {
     outcome.is_left_out = true;
@@ -76,12 +110,10 @@ Glance glance_at(const Candidates& candidates, bool at_all, const ComposeOptions
                  const ProbeFor& probe_for) {
   const EffectProbe first = probe_for(candidates.possible.front());
   Glance glance(first.frame, composing);
-  for (const Candidate& candidate : candidates.possible) {
-    if (!at_all && candidate.technique->effect.least_change == 0) continue;
-    const EffectProbe probe = probe_for(candidate);
-    glance.look(plan_of_glance(*candidate.technique, probe), true_per_seen_change(*candidate.technique), probe.device,
-                probe.options);
-  }
+  std::vector<const Candidate*> looked_at;
+  for (const Candidate& candidate : candidates.possible)
+    if (at_all || candidate.technique->effect.least_change > 0) looked_at.push_back(&candidate);
+  for (const Plan& plan : plans_of_glance(looked_at, probe_for)) glance.look(plan, first.device, first.options);
   return glance;
 }
 

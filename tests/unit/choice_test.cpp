@@ -8,17 +8,17 @@
 namespace gloam::test::choice_test {
 namespace {
 
-/// Two effects that change the picture by 3 and by 4, independently: without both it is 5 off.
+/// Two effects that change the picture by 3 and by 4, independently, and make all of the true change: without both it is 5 off. The faster
+/// option of each has noise.
 ChoiceProblem two_effects() {
   ChoiceProblem problem;
-  problem.effects = {{{{"ao"}, 2, 0.5, 0.5}, {{"ao"}, 10, 0.1, 0.1}},
-                     {{{"reflection"}, 4, 0.25, 0.25}, {{"reflection"}, 20, 0, 0}}};
-  problem.loss_without = {3, 4};
-  problem.loss_with = [](const std::vector<std::string>& planes) {
-    const bool ao = std::find(planes.begin(), planes.end(), "ao") != planes.end();
-    const bool reflection = std::find(planes.begin(), planes.end(), "reflection") != planes.end();
-    return std::hypot(ao ? 0 : 3, reflection ? 0 : 4);
-  };
+  problem.model = {.planes = {"ao", "reflection"},
+                   .products = {{9, 0}, {0, 16}},
+                   .with_truth = {9, 16},
+                   .uncertainty = {0, 0},
+                   .truth = 25};
+  problem.effects = {{{{{"ao", 1, 0.25}}, 2}, {{{"ao", 1, 0.01}}, 10}},
+                     {{{{"reflection", 1, 0.0625}}, 4}, {{{"reflection", 1, 0.04}}, 20}}};
   return problem;
 }
 
@@ -49,37 +49,60 @@ TEST(Choice, TheLeastTimeWithinAnError) {
   const ChoiceProblem problem = two_effects();
   EXPECT_EQ(best_within(problem, {.error = 5})->options, (Options{left_out, left_out}));
   EXPECT_EQ(best_within(problem, {.error = 2})->options, (Options{0, 0}));
-  EXPECT_EQ(best_within(problem, {.error = 1.6})->options, (Options{1, 0}));
-  EXPECT_EQ(best_within(problem, {.error = 0.31})->options, (Options{1, 1}));
-  EXPECT_FALSE(best_within(problem, {.error = 0.29}));
+  EXPECT_EQ(best_within(problem, {.error = 1.1})->options, (Options{1, 0}));
+  EXPECT_EQ(best_within(problem, {.error = 0.87})->options, (Options{1, 1}));
+  EXPECT_FALSE(best_within(problem, {.error = 0.7}));
 }
 
 TEST(Choice, OfEqualErrorsTheFaster) {
   ChoiceProblem problem = two_effects();
-  problem.effects[0] = {{{"ao"}, 9, 0.5, 0.5}, {{"ao"}, 2, 0.5, 0.5}};
+  problem.effects[0] = {{{{"ao", 1, 0.25}}, 9}, {{{"ao", 1, 0.25}}, 2}};
   EXPECT_EQ(best_within(problem, {.ms = 100})->options[0], 1);
 }
 
-// Leaving both out has nearly the least error, since one darkens what the other brightens.
-TEST(Choice, LuckDecidesNothing) {
+/// Ambient occlusion takes away what light of near surfaces gives back: the truth is hardly different from the colour.
+ChoiceProblem two_that_cancel() {
   ChoiceProblem problem;
-  problem.effects = {{{{"ao"}, 1, 0.5, 0}}, {{{"indirect"}, 1, 0.5, 0}}};
-  problem.loss_without = {1, 1};
-  for (const double of_none : {0.98, 0.9}) {
-    problem.loss_with = [=](const std::vector<std::string>& planes) {
-      return planes.empty() ? of_none : planes.size() == 2 ? 1.0 : 2.0;
-    };
-    const Choice best = *best_within(problem, {.ms = 10});
-    EXPECT_EQ(best.options, of_none == 0.98 ? (Options{0, 0}) : (Options{left_out, left_out})) << of_none;
-  }
-  EXPECT_DOUBLE_EQ(figures_of(problem, {0, left_out}).without_luck, std::sqrt(1.25));
+  problem.model = {.planes = {"ao", "indirect"},
+                   .products = {{16, -15}, {-15, 16}},
+                   .with_truth = {1, 1},
+                   .uncertainty = {2, 2},
+                   .truth = 2};
+  problem.effects = {{{{{"ao"}}, 5}}, {{{{"indirect"}}, 5}}};
+  return problem;
 }
 
-TEST(Choice, WithoutEffectsThereIsNothingToChoose) {
-  ChoiceProblem problem;
-  problem.loss_with = [](const std::vector<std::string>&) { return 0.0; };
-  EXPECT_EQ(best_within(problem, {.ms = 0})->error, 0);
+TEST(Choice, OneOfTwoThatCancelIsWorseThanNeither) {
+  const ChoiceProblem problem = two_that_cancel();
+  EXPECT_DOUBLE_EQ(figures_of(problem, {0, left_out}).error, 4);
+  EXPECT_EQ(best_within(problem, {.ms = 5})->options, (Options{left_out, left_out}));
+  // Both together make the small true change.
+  EXPECT_LT(figures_of(problem, {0, 0}).error, 0.5);
+  EXPECT_EQ(best_within(problem, {.ms = 10})->options, (Options{0, 0}));
 }
+
+TEST(Choice, AnErrorIsPromisedOnlyByItsUncertainty) {
+  ChoiceProblem problem = two_effects();
+  const double error = figures_of(problem, {1, 0}).error;
+  EXPECT_TRUE(best_within(problem, {.error = error}));
+  problem.model.uncertainty = {1, 1};
+  const Choice unsure = figures_of(problem, {1, 0});
+  EXPECT_DOUBLE_EQ(unsure.error, error);
+  EXPECT_DOUBLE_EQ(unsure.uncertainty, std::sqrt(8.0) / (2 * error));
+  EXPECT_EQ(best_within(problem, {.error = error + unsure.uncertainty})->options, (Options{1, 0}));
+  EXPECT_FALSE(best_within(problem, {.error = error}));
+}
+
+TEST(Choice, OfPlanesThatThePictureDoesNotUseNothingIsExpected) {
+  ChoiceProblem problem = two_effects();
+  problem.uses = [](const std::vector<std::string>& made) {
+    EXPECT_TRUE(std::is_sorted(made.begin(), made.end()));
+    return std::vector<std::string>{"reflection"};
+  };
+  EXPECT_DOUBLE_EQ(figures_of(problem, {1, 0}).error, figures_of(problem, {left_out, 0}).error);
+}
+
+TEST(Choice, WithoutEffectsThereIsNothingToChoose) { EXPECT_EQ(best_within(ChoiceProblem(), {.ms = 0})->error, 0); }
 
 }  // namespace
 }  // namespace gloam::test::choice_test
