@@ -276,12 +276,21 @@ def table_of(views):
         return numpy.mean((view.true - expected) ** 2) / max(numpy.mean(expected ** 2), 1e-30)
     table = {"truth": dict(zip(names, truth)), "unforeseen": float(numpy.median([unforeseen(view) for view in views])),
              "truth_uncertainty": truth_uncertainty_of(views, names),
+             "unreached": float(numpy.quantile([unreached(view) for view in views], 0.1)),
              "with_truth": {plane: dict(zip([*names, "not_noise"], fit_with_truth(views, plane, names))) for plane in planes}}
     table["best_over_seen"] = {a: {b: ratio_of_products(views, a, b) for b in planes if b >= a} for a in planes}
     table["uncertainty"] = {plane: uncertainty_of(views, plane, names) for plane in planes}
     table["presets"] = {plane: {preset: fit_kept(own, plane, f"{preset}.full") for preset in PRESETS} for plane in planes}
     table["resolutions"] = {plane: {resolution: fit_kept(own, plane, f"ultra.{resolution}") for resolution in RESOLUTIONS[1:]} for plane in planes}
     return rounded(table)
+
+
+def unreached(view):
+    """The share of the true change's mean square that the best options leave, whichever of them are taken."""
+    best = view.best
+    pictures = [sum((best[plane] for plane in planes), 0 * view.true) for planes in
+                ([*ambient, *mirrored] for ambient in ([], ["ao"], ["bounces"], ["indirect"], ["ao", "indirect"]) for mirrored in ([], ["reflection"]))]
+    return min(numpy.mean((view.true - picture) ** 2) for picture in pictures) / max(numpy.mean(view.true ** 2), 1e-30)
 
 
 def truth_uncertainty_of(views, names):

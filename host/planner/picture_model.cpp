@@ -102,6 +102,34 @@ const nlohmann::json& row_for(const char* table, const std::string& plane) {
   return found == rows.end() ? rows.at("ao") : *found;
 }
 
+/// Planes that no picture uses together (gloam/composition.h).
+bool exclude_each_other(const std::string& a, const std::string& b) {
+  const auto is = [&](const char* one, const char* other) {
+    return (a == one && b == other) || (a == other && b == one);
+  };
+  return is("ao", "bounces") || is("bounces", "indirect") || is("ao", "environment") || is("bounces", "environment");
+}
+
+/// By how much the best planes of some effects are expected to lessen the square of the error, at most.
+double most_explained(const PictureModel& model) {
+  double most = 0;
+  for (size_t subset = 0; subset < size_t(1) << model.planes.size(); ++subset) {
+    double explained = 0;
+    bool is_possible = true;
+    for (size_t i = 0; i < model.planes.size(); ++i) {
+      if (!(subset >> i & 1)) continue;
+      explained += 2 * model.with_truth[i];
+      for (size_t j = 0; j < model.planes.size(); ++j) {
+        if (!(subset >> j & 1)) continue;
+        explained -= model.products[i][j];
+        is_possible = is_possible && !exclude_each_other(model.planes[i], model.planes[j]);
+      }
+    }
+    if (is_possible) most = std::max(most, explained);
+  }
+  return most;
+}
+
 }  // namespace
 
 double mean_square_change(const PictureModel& model, const std::vector<UsedPlane>& used) {
@@ -135,7 +163,6 @@ ExpectedSquare expected_square(const PictureModel& model, const std::vector<Used
 PictureModel model_of(const SeenChanges& seen) {
   PictureModel model;
   model.truth = seen_truth(seen) * (1 + figures().at("unforeseen").get<double>());
-  model.truth_uncertainty = figures().at("truth_uncertainty").get<double>() * model.truth;
   for (size_t i = 0; i < seen.names.size(); ++i) {
     if (!is_of_effect(seen.names[i])) continue;
     model.planes.push_back(seen.names[i]);
@@ -148,10 +175,14 @@ PictureModel model_of(const SeenChanges& seen) {
         row.push_back(best_over_seen(seen.names[i], seen.names[j]) * seen.products[i][j]);
     }
     const double own = best_over_seen(seen.names[i], seen.names[i]) * seen.products[i][i];
-    model.uncertainty.push_back(figures().at("uncertainty").value(seen.names[i], 0.1) * std::sqrt(own * model.truth));
+    model.uncertainty.push_back(figures().at("uncertainty").value(seen.names[i], 0.1) * std::sqrt(own));
     model.products.push_back(std::move(row));
     model.with_truth.push_back(with_truth);
   }
+  // No scene's picture comes nearer than that.
+  model.truth = std::max(model.truth, most_explained(model) / (1 - figures().at("unreached").get<double>()));
+  for (double& uncertainty : model.uncertainty) uncertainty *= std::sqrt(model.truth);
+  model.truth_uncertainty = figures().at("truth_uncertainty").get<double>() * model.truth;
   return model;
 }
 

@@ -102,6 +102,35 @@ TEST_F(AutoBudget, AnErrorThatNothingReachesIsTold) {
   EXPECT_GE(result.json()["chosen"].size(), 2u);
 }
 
+TEST_F(AutoBudget, AnotherTableOfErrorsIsTakenOrRefusedInOneLine) {
+  std::ofstream(path("none.json")) << "{}";
+  const Arguments words = {"auto", path("frame.exr"), "-o", path("out.exr"), "--budget", "1000s", "--json", "-"};
+  const Result refused = gloam(words, {{"GLOAM_EFFECT_ERRORS", path("none.json")}});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(refused.lines_of_error(), 1) << refused.err;
+  EXPECT_NE(refused.err.find("is no table of errors (no 'truth')"), std::string::npos) << refused.err;
+  EXPECT_FALSE(fs::exists(path("out.exr")));
+  // One that expects nothing of any effect.
+  Json table = Json::parse(slurp(fs::path(GLOAM_SOURCE_DIR) / "data" / "effect_errors.json"));
+  for (Json& plane : table["with_truth"])
+    for (Json& share : plane) share = 0;
+  std::ofstream(path("nothing.json")) << table;
+  const Result result = gloam(words, {{"GLOAM_EFFECT_ERRORS", path("nothing.json")}});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.json()["chosen"].size(), 0u) << result.json()["why"];
+}
+
+// What no mask can save is not searched for: the look has found ambient occlusion nearly everywhere.
+TEST_F(AutoBudget, NoMaskIsProbedWhereTheLookFindsAnEffectNearlyEverywhere) {
+  const Json document = automatic({"--budget", "1000s"}).json();
+  const Json effect = effect_of(document, "ambient occlusion");
+  EXPECT_EQ(effect["everywhere"], true) << effect;
+  EXPECT_GT(effect["share_of_tiles"], 0.8) << effect;
+  EXPECT_LT(effect["share_of_tiles"], 1) << effect;
+  const Json always = automatic({"--budget", "1000s", "--mask", "always"}).json();
+  EXPECT_GT(always["classify_ms"], document["classify_ms"]);
+}
+
 TEST_F(AutoBudget, SettingsThatWereAskedForStand) {
   const Result result = automatic({"--budget", "1000s", "--preset", "low", "--resolution", "half"});
   ASSERT_EQ(result.status, 0) << result.err;
