@@ -12,12 +12,12 @@ Python module (PYTHONPATH=build/python). An hour and a half on two cores.
 import json
 import math
 import pathlib
-import subprocess
 import sys
 
 import numpy
 
 import gloam
+from error_table import call
 
 SCENES = ["gallery", "courtyard", "lounge", "temple", "corridor", "colonnade", "banquet", "statue", "clockwork", "fence", "foliage", "hairball",
           "pillar", "slab"]
@@ -30,13 +30,6 @@ STEP = 4  # of a look, pixels
 SIZE, RAYS = "480x270", 64
 # Shares of a view that say little: nearly all of it is background, a wall before the eyes, or one flat plane.
 LEAST_SURFACE, LEAST_DEPTH, LEAST_RANGE = 0.35, 0.12, 0.02
-
-
-def call(*words):
-    done = subprocess.run([str(word) for word in words], capture_output=True, text=True)
-    if done.returncode:
-        raise RuntimeError(done.stderr)
-    return done.stdout
 
 
 def random_camera(base, random):

@@ -22,31 +22,31 @@ std::vector<Channel> nothing(const Frame& frame) {
   return channels;
 }
 
-/// Calls `at(channel number, view, component, x, y)` for each surface's channels.
-template <class At>
-void for_surfaces(const Frame& frame, At at) {
+/// For each channel of colour, `of_channel(its number among all, view number, component)` gives what is called for each surface's pixel.
+template <class OfChannel>
+void for_surfaces(const Frame& frame, OfChannel of_channel) {
   size_t number = 0;
-  for (const View& view : frame.views) {
-    const Channel& depth = depth_of(view);
-    const size_t components = view.find("color")->channels.size();
+  for (size_t v = 0; v < frame.views.size(); ++v) {
+    const Channel& depth = depth_of(frame.views[v]);
+    const size_t components = frame.views[v].find("color")->channels.size();
     for (size_t c = 0; c < components; ++c, ++number) {
+      auto at = of_channel(number, v, c);
       for (int y = 0; y < frame.height(); ++y)
         for (int x = 0; x < frame.width(); ++x)
-          if (!is_background(depth.at(x, y))) at(number, view, c, x, y);
+          if (!is_background(depth.at(x, y))) at(x, y);
     }
   }
 }
 
 Change difference_of(const std::string& name, const Frame& with, const Frame& without, const Frame& frame) {
   Change change{name, nothing(frame)};
-  size_t view_number = 0;
-  const View* last = nullptr;
-  for_surfaces(frame, [&](size_t number, const View& view, size_t c, int x, int y) {
-    if (last && last != &view) ++view_number;
-    last = &view;
-    const float difference = with.views[view_number].find("color")->channels[c].at(x, y) -
-                             without.views[view_number].find("color")->channels[c].at(x, y);
-    change.channels[number].at(x, y) = std::isfinite(difference) ? difference : 0;
+  for_surfaces(frame, [&](size_t number, size_t v, size_t c) {
+    const Channel& a = with.views[v].find("color")->channels[c];
+    const Channel& b = without.views[v].find("color")->channels[c];
+    return [&a, &b, &to = change.channels[number]](int x, int y) {
+      const float difference = a.at(x, y) - b.at(x, y);
+      to.at(x, y) = std::isfinite(difference) ? difference : 0;
+    };
   });
   return change;
 }
@@ -105,13 +105,15 @@ bool every_view_has(const Frame& frame, const char* plane) {
   return std::all_of(frame.views.begin(), frame.views.end(), [&](const View& view) { return view.find(plane); });
 }
 
-/// A share of each pixel times the light around it.
-template <class Share>
-Change of_light_around(const char* name, const Frame& frame, const std::vector<Channel>& light, Share share) {
+/// A share of each pixel times light. `share_of(view number, component)` gives what is called for a pixel's share.
+template <class ShareOf>
+Change of_light(const char* name, const Frame& frame, const std::vector<Channel>& light, ShareOf share_of) {
   Change change{name, nothing(frame)};
-  for_surfaces(frame, [&](size_t number, const View& view, size_t c, int x, int y) {
-    const float value = share(view, c, x, y) * light[number].at(x, y);
-    change.channels[number].at(x, y) = std::isfinite(value) ? value : 0;
+  for_surfaces(frame, [&](size_t number, size_t v, size_t c) {
+    return [share = share_of(v, c), &from = light[number], &to = change.channels[number]](int x, int y) {
+      const float value = share(x, y) * from.at(x, y);
+      to.at(x, y) = std::isfinite(value) ? value : 0;
+    };
   });
   return change;
 }
@@ -120,11 +122,14 @@ Change of_light_around(const char* name, const Frame& frame, const std::vector<C
 std::vector<Channel> even_light(const Frame& frame) {
   std::vector<Channel> light = nothing(frame);
   std::vector<double> sums(light.size()), counts(light.size());
-  for_surfaces(frame, [&](size_t number, const View& view, size_t c, int x, int y) {
-    const double value = view.find("color")->channels[c].at(x, y);
-    if (!std::isfinite(value)) return;
-    sums[number] += value;
-    ++counts[number];
+  for_surfaces(frame, [&](size_t number, size_t v, size_t c) {
+    return [&colour = frame.views[v].find("color")->channels[c], &sum = sums[number], &count = counts[number]](int x,
+                                                                                                               int y) {
+      const double value = colour.at(x, y);
+      if (!std::isfinite(value)) return;
+      sum += value;
+      ++count;
+    };
   });
   for (size_t i = 0; i < light.size(); ++i)
     light[i] = Channel(light[i].layout(), counts[i] > 0 ? float(sums[i] / counts[i]) : 0);
@@ -135,13 +140,16 @@ std::vector<Channel> even_light(const Frame& frame) {
 void add_hidden(const Frame& frame, const Frame& parts, const std::vector<Channel>& light,
                 std::vector<Change>& changes) {
   if (!every_view_has(frame, "albedo") || !every_view_has(parts, "ao")) return;
-  const auto diffuse_and_closed = [&](const View& view, size_t c, int x, int y) {
-    const Channel* metallic = component_of(view, "metallic", 0);
-    const float diffuse = component_of(view, "albedo", c)->at(x, y) * (metallic ? 1 - metallic->at(x, y) : 1);
-    return diffuse * (1 - component_of(parts.view(view.name), "ao", 0)->at(x, y));
+  const auto diffuse_and_closed = [&](size_t v, size_t c) {
+    const Channel *albedo = component_of(frame.views[v], "albedo", c),
+                  *metallic = component_of(frame.views[v], "metallic", 0), *ao = component_of(parts.views[v], "ao", 0);
+    return [=](int x, int y) {
+      const float diffuse = albedo->at(x, y) * (metallic ? 1 - metallic->at(x, y) : 1);
+      return diffuse * (1 - ao->at(x, y));
+    };
   };
-  changes.push_back(of_light_around(hidden_light, frame, light, diffuse_and_closed));
-  changes.push_back(of_light_around(hidden_even_light, frame, even_light(frame), diffuse_and_closed));
+  changes.push_back(of_light(hidden_light, frame, light, diffuse_and_closed));
+  changes.push_back(of_light(hidden_even_light, frame, even_light(frame), diffuse_and_closed));
 }
 
 void add_not_found(const Frame& frame, const Frame& parts, const std::vector<Channel>& light,
@@ -153,38 +161,39 @@ void add_not_found(const Frame& frame, const Frame& parts, const std::vector<Cha
   if (!every_view_has(frame, "reflectance") ||
       !std::all_of(parts.views.begin(), parts.views.end(), tells_what_it_found))
     return;
-  changes.push_back(of_light_around(light_not_found, frame, light, [&](const View& view, size_t c, int x, int y) {
-    const float found = parts.view(view.name).find("reflection")->channels[3].at(x, y);
-    return component_of(view, "reflectance", c)->at(x, y) * (1 - found);
+  changes.push_back(of_light(light_not_found, frame, light, [&](size_t v, size_t c) {
+    const Channel *reflectance = component_of(frame.views[v], "reflectance", c),
+                  *found = component_of(parts.views[v], "reflection", 3);
+    return [=](int x, int y) { return reflectance->at(x, y) * (1 - found->at(x, y)); };
   }));
 }
 
-/// Between every second pixel of every second row: the mean of the nearest of them that are surfaces.
-SeenChanges::Coarser when_coarser(const Change& change, const Frame& frame) {
-  double own = 0, common = 0, other = 0;
-  for_surfaces(frame, [&](size_t number, const View& view, size_t, int x, int y) {
-    if (x % 2 == 0 && y % 2 == 0) return;
-    const Channel &depth = depth_of(view), &values = change.channels[number];
-    double sum = 0, count = 0;
-    for (int v = y - y % 2; v <= std::min(y + y % 2, frame.height() - 1); v += 2)
-      for (int u = x - x % 2; u <= std::min(x + x % 2, frame.width() - 1); u += 2)
-        if (!is_background(depth.at(u, v))) sum += values.at(u, v), ++count;
-    if (count == 0) return;
-    const double filled = sum / count, value = values.at(x, y);
-    own += value * value;
-    common += value * filled;
-    other += filled * filled;
+/// What the mean of the nearest surfaces among every second pixel of every second row keeps of the pixels between.
+double kept_when_coarser(const Change& change, const Frame& frame) {
+  double own = 0, common = 0;
+  for_surfaces(frame, [&](size_t number, size_t v, size_t) {
+    return [&, &depth = depth_of(frame.views[v]), &values = change.channels[number]](int x, int y) {
+      if (x % 2 == 0 && y % 2 == 0) return;
+      double sum = 0, count = 0;
+      for (int down = y - y % 2; down <= std::min(y + y % 2, frame.height() - 1); down += 2)
+        for (int right = x - x % 2; right <= std::min(x + x % 2, frame.width() - 1); right += 2)
+          if (!is_background(depth.at(right, down))) sum += values.at(right, down), ++count;
+      if (count == 0) return;
+      const double value = values.at(x, y);
+      own += value * value;
+      common += value * sum / count;
+    };
   });
-  if (own <= 0) return {};
-  const double kept = common / own;
-  return {kept, std::max(0.0, other / own - kept * kept)};
+  return own > 0 ? common / own : 1;
 }
 
 double mean_product(const Change& a, const Change& b, const Frame& frame) {
   double sum = 0, count = 0;
-  for_surfaces(frame, [&](size_t number, const View&, size_t, int x, int y) {
-    sum += double(a.channels[number].at(x, y)) * b.channels[number].at(x, y);
-    ++count;
+  for_surfaces(frame, [&](size_t number, size_t, size_t) {
+    return [&, &of_a = a.channels[number], &of_b = b.channels[number]](int x, int y) {
+      sum += double(of_a.at(x, y)) * of_b.at(x, y);
+      ++count;
+    };
   });
   return count > 0 ? sum / count : 0;
 }
@@ -221,13 +230,28 @@ std::vector<Change> changes_of(const Frame& frame, const Frame& parts, const std
 
 SeenChanges seen_in(const std::vector<Change>& changes, const Frame& frame) {
   SeenChanges seen;
-  for (const Change& change : changes) {
-    seen.names.push_back(change.name);
-    seen.products.emplace_back();
-    for (const Change& other : changes) seen.products.back().push_back(mean_product(change, other, frame));
-    seen.coarser[change.name] = when_coarser(change, frame);
+  const size_t count = changes.size();
+  seen.products.assign(count, std::vector<double>(count));
+  for (size_t i = 0; i < count; ++i) {
+    seen.names.push_back(changes[i].name);
+    seen.kept_when_coarser[changes[i].name] = kept_when_coarser(changes[i], frame);
+    for (size_t j = 0; j <= i; ++j)
+      seen.products[i][j] = seen.products[j][i] = mean_product(changes[i], changes[j], frame);
   }
   return seen;
+}
+
+double mean_square(const Frame& picture) {
+  double sum = 0, count = 0;
+  for_surfaces(picture, [&](size_t, size_t v, size_t c) {
+    return [&, &colour = picture.views[v].find("color")->channels[c]](int x, int y) {
+      const double value = colour.at(x, y);
+      if (!std::isfinite(value)) return;
+      sum += value * value;
+      ++count;
+    };
+  });
+  return count > 0 ? sum / count : 0;
 }
 
 }  // namespace gloam

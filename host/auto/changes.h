@@ -31,4 +31,7 @@ std::vector<Change> changes_of(const Frame& frame, const Frame& parts, const std
 /// Products of changes, and what every second pixel of every second row tells of the others.
 SeenChanges seen_in(const std::vector<Change>& changes, const Frame& frame);
 
+/// Of a picture's colour, over surfaces and channels.
+double mean_square(const Frame& picture);
+
 }  // namespace gloam

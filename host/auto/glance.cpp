@@ -21,24 +21,6 @@ constexpr int side_of_tile = 4;
 /// A value that is nearer to where nothing is does not count.
 constexpr float least_value = 0.01f;
 
-double mean_square(const Frame& picture, const Frame& frame) {
-  double squares = 0, count = 0;
-  for (size_t v = 0; v < picture.views.size(); ++v) {
-    const Channel& depth = frame.views[v].find("depth")->channels.front();
-    for (const Channel& channel : picture.views[v].find("color")->channels) {
-      for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
-          const double value = channel.at(x, y);
-          if (is_background(depth.at(x, y)) || !std::isfinite(value)) continue;
-          squares += value * value;
-          ++count;
-        }
-      }
-    }
-  }
-  return count > 0 ? squares / count : 0;
-}
-
 /// Whether any pixel of a tile is not as where nothing is.
 bool shows(const Plane& plane, int left, int top) {
   const float outside = plane_kind(plane.name).outside;
@@ -63,9 +45,19 @@ int scale_of_glance(const Frame& frame) {
 Glance::Glance(const Frame& frame, ComposeOptions how)
     : how_(std::move(how)),
       small_(every_nth_pixel(frame, scale_of_glance(frame), common_planes(frame))),
-      parts_(without_planes(small_)) {}
+      parts_(without_planes(small_)),
+      whole_(without_planes(small_)) {}
 
-void Glance::look(const Plan& plan, Device& device, const RunOptions& options) {
+void Glance::look(const std::vector<Plan>& plans, Device& device, const RunOptions& options) {
+  for (const Plan& plan : plans) take_planes_of(plan, device, options);
+  std::sort(planes_.begin(), planes_.end());
+  whole_ = picture_of(planes_);
+  rms_ = std::sqrt(mean_square(whole_));
+  seen_ = seen_in(changes_of(small_, parts_, planes_, how_), small_);
+  model_ = model_of(seen_, [this](const auto& planes) { return used(planes).size() == planes.size(); });
+}
+
+void Glance::take_planes_of(const Plan& plan, Device& device, const RunOptions& options) {
   RunOptions thrice = options;
   thrice.repeat = 3;
   RunResult result = run(plan, small_, device, thrice);
@@ -78,46 +70,25 @@ void Glance::look(const Plan& plan, Device& device, const RunOptions& options) {
       add_new(planes_, name);
     }
   }
-  std::sort(planes_.begin(), planes_.end());
-  is_seen_ = false;
 }
 
 Frame Glance::picture_of(const std::vector<std::string>& planes) const {
   return composed(small_, parts_, planes, how_);
 }
 
-void Glance::see() const {
-  if (is_seen_) return;
-  seen_ = seen_in(changes_of(small_, parts_, planes_, how_), small_);
-  model_ = model_of(seen_);
-  is_seen_ = true;
-}
-
-const SeenChanges& Glance::seen() const {
-  see();
-  return seen_;
-}
-
-const PictureModel& Glance::model() const {
-  see();
-  return model_;
-}
-
-double Glance::rms() const { return std::sqrt(mean_square(picture_of(planes_), small_)); }
-
 double Glance::change_by(const std::vector<std::string>& planes) const {
   std::vector<UsedPlane> best;
   for (const std::string& plane : used(planes_))
     if (contains(planes, plane)) best.push_back({plane});
-  return std::sqrt(mean_square_change(model(), best));
+  return std::sqrt(mean_square_change(model_, best));
 }
 
 Plane Glance::changes_by(const std::vector<std::string>& planes, const std::string& view) const {
   std::vector<std::string> others = planes_;
   std::erase_if(others, [&](const std::string& plane) { return contains(planes, plane); });
-  const Frame whole = picture_of(planes_), picture = picture_of(others);
-  const Plane &with = *whole.view(view).find("color"), &left = *picture.view(view).find("color");
-  const double unit = std::max(rms(), 1e-30);
+  const Frame picture = picture_of(others);
+  const Plane &with = *whole_.view(view).find("color"), &left = *picture.view(view).find("color");
+  const double unit = std::max(rms_, 1e-30);
   Channel change(with.channels.front().layout(), 0);
   for (int y = 0; y < change.layout().height; ++y) {
     for (int x = 0; x < change.layout().width; ++x) {

@@ -23,17 +23,17 @@ class Glance {
   /// `frame`: normalised, with the planes that effects and the picture need.
   Glance(const Frame& frame, ComposeOptions how);
 
-  /// Computes a plan on few pixels and takes its planes that belong to a picture. Throws as `run` does.
-  void look(const Plan& plan, Device& device, const RunOptions& options);
+  /// Computes plans on few pixels and takes their planes that belong to a picture; once. Throws as `run` does.
+  void look(const std::vector<Plan>& plans, Device& device, const RunOptions& options);
 
   /// Planes of the picture that are known, sorted.
   const std::vector<std::string>& planes() const { return planes_; }
   /// RMS over surfaces of the picture of all that is known: of all channels.
-  double rms() const;
+  double rms() const { return rms_; }
   /// What was seen of the changes by each plane alone.
-  const SeenChanges& seen() const;
+  const SeenChanges& seen() const { return seen_; }
   /// What is expected of these changes and of the true picture.
-  const PictureModel& model() const;
+  const PictureModel& model() const { return model_; }
   /// RMS change of the picture of everything by an effect's planes, as its best option is expected to make it.
   double change_by(const std::vector<std::string>& planes) const;
   /// For each pixel of the glance, how far these planes change the picture, in shares of its RMS.
@@ -49,15 +49,16 @@ class Glance {
 
  private:
   Frame picture_of(const std::vector<std::string>& planes) const;
-  void see() const;
+  void take_planes_of(const Plan& plan, Device& device, const RunOptions& options);
 
   ComposeOptions how_;
   Frame small_;  ///< all planes of the frame
   Frame parts_;  ///< planes of effects, as they were seen
   std::vector<std::string> planes_;
-  mutable SeenChanges seen_;
-  mutable PictureModel model_;
-  mutable bool is_seen_ = false;
+  Frame whole_;  ///< the picture of all of these
+  double rms_ = 0;
+  SeenChanges seen_;
+  PictureModel model_;
   mutable std::map<std::vector<std::string>, std::vector<std::string>> used_;  ///< by planes that are made
   double ms_ = 0;
 };

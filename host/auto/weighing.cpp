@@ -113,7 +113,7 @@ Glance glance_at(const Candidates& candidates, bool at_all, const ComposeOptions
   std::vector<const Candidate*> looked_at;
   for (const Candidate& candidate : candidates.possible)
     if (at_all || candidate.technique->effect.least_change > 0) looked_at.push_back(&candidate);
-  for (const Plan& plan : plans_of_glance(looked_at, probe_for)) glance.look(plan, first.device, first.options);
+  glance.look(plans_of_glance(looked_at, probe_for), first.device, first.options);
   return glance;
 }
 

@@ -18,15 +18,20 @@ constexpr const char* other_figures = "GLOAM_EFFECT_ERRORS";
 /// Of a preset's own noise what is left where pixels are filled in from several.
 constexpr double noise_left = 0.5;
 
+/// No picture is expected to err less than by this share of the true change's mean square: the sum of what is expected may be negative.
+constexpr double least_share = 0.02;
+
+using GoTogether = std::function<bool(const std::vector<std::string>&)>;
+
 nlohmann::json read_figures() {
   const char* path = std::getenv(other_figures);
   if (!path || !*path) return nlohmann::json::parse(data_files().at("effect_errors.json"));
   std::ifstream file(path);
   nlohmann::json table = nlohmann::json::parse(file, nullptr, false);
-  for (const char* part : {"truth", "with_truth", "presets", "resolutions"})
+  for (const char* part : {"truth", "unforeseen", "truth_uncertainty", "unreached", "with_truth", "best_over_seen",
+                           "uncertainty", "presets", "resolutions"})
     if (!table.is_object() || !table.contains(part))
-      throw Error("{}: {}={} is no table of errors (no '{}'); bench/picture_fit.py makes one", path, other_figures,
-                  path, part);
+      throw Error("{}={} is no table of errors (no '{}'); bench/picture_fit.py makes one", other_figures, path, part);
   return table;
 }
 
@@ -102,30 +107,20 @@ const nlohmann::json& row_for(const char* table, const std::string& plane) {
   return found == rows.end() ? rows.at("ao") : *found;
 }
 
-/// Planes that no picture uses together (gloam/composition.h).
-bool exclude_each_other(const std::string& a, const std::string& b) {
-  const auto is = [&](const char* one, const char* other) {
-    return (a == one && b == other) || (a == other && b == one);
-  };
-  return is("ao", "bounces") || is("bounces", "indirect") || is("ao", "environment") || is("bounces", "environment");
-}
-
 /// By how much the best planes of some effects are expected to lessen the square of the error, at most.
-double most_explained(const PictureModel& model) {
+double most_explained(const PictureModel& model, const GoTogether& go_together) {
   double most = 0;
   for (size_t subset = 0; subset < size_t(1) << model.planes.size(); ++subset) {
-    double explained = 0;
-    bool is_possible = true;
+    std::vector<std::string> names;
+    std::vector<UsedPlane> best;
+    double common = 0;
     for (size_t i = 0; i < model.planes.size(); ++i) {
       if (!(subset >> i & 1)) continue;
-      explained += 2 * model.with_truth[i];
-      for (size_t j = 0; j < model.planes.size(); ++j) {
-        if (!(subset >> j & 1)) continue;
-        explained -= model.products[i][j];
-        is_possible = is_possible && !exclude_each_other(model.planes[i], model.planes[j]);
-      }
+      names.push_back(model.planes[i]);
+      best.push_back({model.planes[i]});
+      common += model.with_truth[i];
     }
-    if (is_possible) most = std::max(most, explained);
+    if (go_together(names)) most = std::max(most, 2 * common - mean_square_change(model, best));
   }
   return most;
 }
@@ -146,9 +141,6 @@ double mean_square_change(const PictureModel& model, const std::vector<UsedPlane
   return std::max(square, 0.0);
 }
 
-/// No picture is expected to err less than by this share of the true change's mean square: the sum of what is expected may be negative.
-constexpr double least_share = 0.02;
-
 ExpectedSquare expected_square(const PictureModel& model, const std::vector<UsedPlane>& used) {
   double square = model.truth + mean_square_change(model, used), variance = std::pow(model.truth_uncertainty, 2);
   for (const UsedPlane& plane : used) {
@@ -160,14 +152,14 @@ ExpectedSquare expected_square(const PictureModel& model, const std::vector<Used
   return {std::max(square, least_share * model.truth), std::sqrt(variance)};
 }
 
-PictureModel model_of(const SeenChanges& seen) {
+PictureModel model_of(const SeenChanges& seen, const GoTogether& go_together) {
   PictureModel model;
   model.truth = seen_truth(seen) * (1 + figures().at("unforeseen").get<double>());
   for (size_t i = 0; i < seen.names.size(); ++i) {
     if (!is_of_effect(seen.names[i])) continue;
     model.planes.push_back(seen.names[i]);
     std::vector<double> row;
-    const double kept = seen.coarser.count(seen.names[i]) ? seen.coarser.at(seen.names[i]).kept : 1;
+    const double kept = seen.kept_when_coarser.at(seen.names[i]);
     double with_truth = share_of_not_noise(seen, seen.names[i]) * kept * seen.products[i][i];
     for (size_t j = 0; j < seen.names.size(); ++j) {
       with_truth += share_in_truth(seen, seen.names[i], seen.names[j]) * seen.products[i][j];
@@ -180,15 +172,16 @@ PictureModel model_of(const SeenChanges& seen) {
     model.with_truth.push_back(with_truth);
   }
   // No scene's picture comes nearer than that.
-  model.truth = std::max(model.truth, most_explained(model) / (1 - figures().at("unreached").get<double>()));
+  model.truth =
+      std::max(model.truth, most_explained(model, go_together) / (1 - figures().at("unreached").get<double>()));
   for (double& uncertainty : model.uncertainty) uncertainty *= std::sqrt(model.truth);
   model.truth_uncertainty = figures().at("truth_uncertainty").get<double>() * model.truth;
   return model;
 }
 
 UsedPlane plane_by(const std::string& plane, const std::string& preset, int resolution, const SeenChanges& seen) {
-  const auto coarser = seen.coarser.find(plane);
-  const double lost = coarser == seen.coarser.end() ? 0 : 1 - coarser->second.kept;
+  const auto kept = seen.kept_when_coarser.find(plane);
+  const double lost = kept == seen.kept_when_coarser.end() ? 0 : 1 - kept->second;
   const nlohmann::json& presets = row_for("presets", plane);
   UsedPlane used = fitted(plane, presets.contains(preset) ? presets.at(preset) : presets.at("medium"), lost);
   if (resolution == 1) return used;

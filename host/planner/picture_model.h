@@ -1,6 +1,7 @@
 // The error of a picture that options of several effects make, expected before any of them runs.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -13,11 +14,8 @@ struct SeenChanges {
   std::vector<std::string> names;
   /// Mean product of two changes: symmetric, in squares of the colour's unit.
   std::vector<std::vector<double>> products;
-  /// Of each plane: what fewer pixels, filled in between, keep of its change, and what they add as noise, in shares of it.
-  struct Coarser {
-    double kept = 1, noise = 0;
-  };
-  std::map<std::string, Coarser> coarser;
+  /// Of each: how much of its change fewer pixels tell, those between filled in.
+  std::map<std::string, double> kept_when_coarser;
 };
 
 /// Light of what stands in the way, which ambient occlusion takes away and the image does not show: albedo (1 - ao) times the light around.
@@ -56,8 +54,9 @@ ExpectedSquare expected_square(const PictureModel& model, const std::vector<Used
 double mean_square_change(const PictureModel& model, const std::vector<UsedPlane>& used);
 
 /// What data/effect_errors.json makes of a look, which was fitted to traced pictures of built-in scenes; or the file that the environment
-/// variable GLOAM_EFFECT_ERRORS names, fitted to others. Throws Error for a file that is none.
-PictureModel model_of(const SeenChanges& seen);
+/// variable GLOAM_EFFECT_ERRORS names, fitted to others. `go_together`: whether a picture uses all of these planes. Throws Error for a file that
+/// is no such table.
+PictureModel model_of(const SeenChanges& seen, const std::function<bool(const std::vector<std::string>&)>& go_together);
 
 /// Of a plane by an option at a preset and every `resolution`-th pixel. What samples, and pixels that are filled in, cost depends on the
 /// frame's detail. What the file does not name is taken for what it says of ambient occlusion, at the preset medium.
