@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "base/files.h"
 #include "base/lists.h"
 #include "gloam/error.h"
 #include "technique/data_files.h"
@@ -26,8 +26,7 @@ using GoTogether = std::function<bool(const std::vector<std::string>&)>;
 nlohmann::json read_figures() {
   const char* path = std::getenv(other_figures);
   if (!path || !*path) return nlohmann::json::parse(data_files().at("effect_errors.json"));
-  std::ifstream file(path);
-  nlohmann::json table = nlohmann::json::parse(file, nullptr, false);
+  const nlohmann::json table = nlohmann::json::parse(read_text(path), nullptr, false);
   for (const char* part : {"truth", "unforeseen", "truth_uncertainty", "unreached", "with_truth", "best_over_seen",
                            "uncertainty", "presets", "resolutions"})
     if (!table.is_object() || !table.contains(part))
