@@ -5,6 +5,7 @@
 
 #include "auto/automatic.h"
 #include "auto/candidates.h"
+#include "auto/picture_parts.h"
 #include "auto/weighing.h"
 #include "base/lists.h"
 #include "gloam/compute.h"
@@ -198,13 +199,18 @@ AutoResult compute_effects(AutoPlan& planned, const AutoSettings& settings, cons
       probe.seen_share = glance->share_of(candidate.technique->effect.changes);
     Outcome outcome = decided(*candidate.technique, settings, probe);
     outcome.change = change;
-    if (settings.purpose.explains && glance) add_changes(outcome, *glance);
     if (!settings.goal || !outcome.decision.effect.is_wanted) compute_decided(outcome, settings, probe, result.frame);
     result.outcomes.push_back(std::move(outcome));
   }
   if (glance) result.glance_ms = glance->ms();
   if (settings.goal && glance) spend_budget(planned.candidates, settings, *glance, probe_for, result);
   if (settings.goal && !glance) result.spent.emplace();
+  if (glance && (settings.goal || settings.purpose.explains)) {
+    result.expected = expected_of(result.outcomes, *glance);
+    result.picture_rms = glance->rms();
+  }
+  if (glance && settings.purpose.explains)
+    result.picture = show_changes(frame, *glance, settings.purpose.composing, result);
   for (const Outcome& outcome : result.outcomes) {
     if (result.used_radius || !outcome.plan) continue;
     result.used_radius = radius_of(*outcome.plan, outcome.decision.request, settings.radius_from);
@@ -242,9 +248,7 @@ AutoResult compute_auto(const Frame& frame, const PlanRequest& asked, AutoSettin
         if (name == "color" || contains(usable, name)) fit.view(view.name).planes[name] = plane.clone();
     result = compute_effects(planned, settings, fit, device, options);
   }
-  if (result.spent)
-    if (std::string missed = note_on_goal(*result.spent, settings.goal); !missed.empty())
-      result.notes.push_back(missed);
+  if (std::string missed = note_on_goal(result, settings.goal); !missed.empty()) result.notes.push_back(missed);
   return result;
 }
 

@@ -177,7 +177,6 @@ Spent spend(std::vector<BudgetedEffect>& effects, const Goal& goal, const Budget
   }
   const ChoiceProblem problem = spending.problem();
   spent.glance_ms = problem.looking_ms;
-  spent.expected_error = choice.error;
   spent.why =
       why_chosen(problem, choice, goal, [&](const std::vector<int>& options) { return label_of(effects, options); });
   name_cheapest(effects, problem, spent);

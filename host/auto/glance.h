@@ -47,8 +47,10 @@ class Glance {
   /// The frame's planes on few pixels.
   const Frame& small() const { return small_; }
 
- private:
+  /// The picture of planes that are known, on few pixels.
   Frame picture_of(const std::vector<std::string>& planes) const;
+
+ private:
   void take_planes_of(const Plan& plan, Device& device, const RunOptions& options);
 
   ComposeOptions how_;

@@ -54,6 +54,11 @@ Json chosen_of(const std::vector<Outcome>& outcomes) {
   return chosen;
 }
 
+std::string in_words(const ExpectedError& expected) {
+  return fmt::format("expected error of the picture {:.4f} (RMSE, give or take {:.4f}), of the colour alone {:.4f}",
+                     expected.error, expected.uncertainty, expected.of_color_alone);
+}
+
 double ms_of(const AutoResult& result) {
   double ms = result.glance_ms;
   for (const Outcome& o : result.outcomes) ms += o.ms;
@@ -78,7 +83,10 @@ nlohmann::ordered_json document_of(const AutoResult& result, const Goal& goal, c
   document["chosen"] = chosen_of(result.outcomes);
   if (goal.ms) document["budget_ms"] = *goal.ms;
   if (goal.error) document["error_goal"] = *goal.error;
-  document["expected_error"] = result.spent->expected_error;
+  const ExpectedError expected = result.expected.value_or(ExpectedError{});
+  document["expected_error"] = expected.error;
+  document["expected_error_uncertainty"] = expected.uncertainty;
+  document["expected_error_of_color"] = expected.of_color_alone;
   document["goal_met"] = !result.spent->is_missed;
   document["why"] = result.spent->why;
   return document;
@@ -108,19 +116,29 @@ std::string lost_in_words(const Outcome& o) { return std::isnan(o.lost) ? "" : f
 std::string totals_in_words(const AutoResult& result, const Goal& goal) {
   double looking = result.glance_ms;
   for (const Outcome& o : result.outcomes) looking += o.decision.effect.classify_ms;
+  const std::string error = result.expected ? "; " + in_words(*result.expected) : "";
   if (!result.spent)
-    return fmt::format("{:.1f} ms for all effects, {:.1f} ms of them to find where the frame calls for them",
-                       ms_of(result), looking);
-  return fmt::format(
-      "{}: {:.2f} ms on the device, {:.2f} of it for looking; expected error of the picture {:.4f} (RMSE)",
-      in_words(goal), ms_of(result), result.spent->glance_ms, result.spent->expected_error);
+    return fmt::format("{:.1f} ms for all effects, {:.1f} ms of them to find where the frame calls for them{}",
+                       ms_of(result), looking, error);
+  return fmt::format("{}: {:.2f} ms on the device, {:.2f} of it for looking{}", in_words(goal), ms_of(result),
+                     result.spent->glance_ms, error);
 }
 
-std::string note_on_goal(const Spent& spent, const Goal& goal) {
-  if (!spent.is_missed) return "";
+std::string sentence_on(const AutoResult& result) {
+  if (result.spent && !result.spent->why.empty()) return result.spent->why;
+  std::vector<std::string> called_for;
+  for (const Outcome& o : result.outcomes)
+    if (o.runs()) called_for.push_back(o.decision.effect.technique->effect.name);
+  return called_for.empty() ? "the frame calls for no effect that can be computed"
+                            : fmt::format("the frame calls for {}", enumerate(called_for));
+}
+
+std::string note_on_goal(const AutoResult& result, const Goal& goal) {
+  if (!result.spent || !result.spent->is_missed) return "";
+  const Spent& spent = *result.spent;
   if (goal.error)
     return fmt::format("{}: no choice is expected to reach it; the nearest, {:.4f}, was taken", in_words(goal),
-                       spent.expected_error);
+                       result.expected.value_or(ExpectedError{}).error);
   return fmt::format(
       "{}: nothing fits, so all effects were left out; looking takes {:.2f} ms, and with the cheapest, {}, it is "
       "{:.2f} ms",

@@ -23,6 +23,9 @@ std::string lost_in_words(const Outcome& outcome);
 /// The time of all effects, and what a budget came to: a sentence.
 std::string totals_in_words(const AutoResult& result, const Goal& goal);
 
+/// What the frame calls for, or what a budget buys and why: a sentence.
+std::string sentence_on(const AutoResult& result);
+
 /// [{"plane": "ao", "used": true, "how": "darkens ambient light"}, ...]
 nlohmann::ordered_json composition_document(const Composition& composition);
 /// "composite: ao darkens ambient light; contact is left out: the colour holds shadows already"

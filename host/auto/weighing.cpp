@@ -1,6 +1,7 @@
 #include "auto/weighing.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -63,12 +64,6 @@ std::vector<Plan> plans_of_glance(const std::vector<const Candidate*>& candidate
   return plans;
 }
 
-std::vector<std::string> planes_of(const Technique& technique) {
-  std::vector<std::string> planes = {technique.effect.changes};
-  for (const Technique* more : techniques_that_complete(technique)) planes.push_back(more->effect.changes);
-  return planes;
-}
-
 BudgetedEffect budgeted(const Candidate& candidate, const Outcome& outcome, bool with_mask, const EffectProbe& probe) {
   BudgetedEffect effect;
   effect.technique = candidate.technique;
@@ -106,6 +101,12 @@ double ms_everywhere(const Decision& decision, const EffectProbe& probe) {
 
 }  // namespace
 
+std::vector<std::string> planes_of(const Technique& technique) {
+  std::vector<std::string> planes = {technique.effect.changes};
+  for (const Technique* more : techniques_that_complete(technique)) planes.push_back(more->effect.changes);
+  return planes;
+}
+
 Glance glance_at(const Candidates& candidates, bool at_all, const ComposeOptions& composing,
                  const ProbeFor& probe_for) {
   const EffectProbe first = probe_for(candidates.possible.front());
@@ -121,11 +122,25 @@ double change_by(const Technique& technique, const Glance& glance) {
   return contains(glance.planes(), technique.effect.changes) ? glance.change_by(planes_of(technique)) : unlooked_at;
 }
 
-void add_changes(Outcome& outcome, const Glance& glance) {
-  const Technique& technique = *outcome.decision.effect.technique;
-  if (!contains(glance.planes(), technique.effect.changes)) return;
-  for (const View& view : glance.small().views)
-    outcome.changes.emplace(view.name, glance.changes_by(planes_of(technique), view.name));
+ExpectedError expected_of(const std::vector<Outcome>& outcomes, const Glance& glance) {
+  std::vector<std::string> made;
+  std::vector<UsedPlane> planes;
+  for (const Outcome& outcome : outcomes) {
+    if (!outcome.runs()) continue;
+    const PlanRequest& request = outcome.decision.request;
+    for (const std::string& plane : part_planes()) {
+      if (!contains(outcome.outputs, plane)) continue;
+      made.push_back(plane);
+      planes.push_back(plane_by(plane, request.preset, request.resolution, glance.seen()));
+    }
+  }
+  std::sort(made.begin(), made.end());
+  const std::vector<std::string>& used = glance.used(made);
+  std::erase_if(planes, [&](const UsedPlane& plane) { return !contains(used, plane.plane); });
+  const ExpectedSquare expected = expected_square(glance.model(), planes);
+  const double error = std::sqrt(expected.square);
+  return {error, error > 0 ? expected.deviation / (2 * error) : 0,
+          std::sqrt(expected_square(glance.model(), {}).square)};
 }
 
 void spend_budget(const Candidates& candidates, const AutoSettings& settings, const Glance& glance,

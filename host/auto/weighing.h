@@ -16,8 +16,11 @@ Glance glance_at(const Candidates& candidates, bool at_all, const ComposeOptions
 /// RMS change of the picture by an effect, with what completes it; NaN: the glance has not looked at it.
 double change_by(const Technique& technique, const Glance& glance);
 
-/// Where an effect changes the picture, for a picture of that.
-void add_changes(Outcome& outcome, const Glance& glance);
+/// The planes of a picture that an effect makes, with what completes it.
+std::vector<std::string> planes_of(const Technique& technique);
+
+/// Of the picture that the outcomes make together.
+ExpectedError expected_of(const std::vector<Outcome>& outcomes, const Glance& glance);
 
 /// Spends the budget on the effects that are wanted; `result.outcomes` are those of `candidates.possible`, decided, in their order.
 void spend_budget(const Candidates& candidates, const AutoSettings& settings, const Glance& glance,

@@ -21,19 +21,22 @@ namespace {
 const TextStyle title_style{14, ink, true}, legend_style{10, ink}, caption_style{11, ink, true}, note_style{10, faint},
     cell_style{10.5, ink}, name_style{10.5, ink, true}, faint_cell{10.5, faint}, totals_style{11, ink, true};
 
+/// The vermilion of Okabe and Ito (2008), which stands out from the tint. Blue, green, red.
+const cv::Scalar outline_tone(0, 94, 213);
+
 bool is_somewhere(const Explanation& e) { return !e.where.empty() && e.where != "-"; }
 
 std::string share_of(const Explanation& e) {
   return is_somewhere(e) && !e.is_everywhere ? fmt::format(" on {} of the image", e.where) : "";
 }
 
-/// "ambient occlusion: wanted on 34 % of the image"
+/// "ambient occlusion: on 34 % of the image"
 std::string caption_of(const Explanation& e) {
-  const bool is_wanted = e.wanted == Explanation::Wanted::yes;
-  if (e.is_everywhere) return e.effect + (is_wanted ? ": wanted, computed everywhere" : ": called for, but left out");
+  const bool is_computed = e.wanted == Explanation::Wanted::yes;
+  if (e.is_everywhere) return e.effect + (is_computed ? ": everywhere" : ": called for, but left out");
   const std::string share = share_of(e);
-  if (is_wanted) return fmt::format("{}: wanted{}", e.effect, share);
-  return share.empty() ? e.effect + ": not wanted" : fmt::format("{}: called for{}, but left out", e.effect, share);
+  if (is_computed) return fmt::format("{}{}{}", e.effect, share.empty() ? "" : ":", share);
+  return share.empty() ? e.effect + ": not called for" : fmt::format("{}: called for{}, but left out", e.effect, share);
 }
 
 bool has_panel(const Explanation& e) {
@@ -48,7 +51,7 @@ std::string or_dash(const std::string& text) { return text.empty() ? "-" : text;
 
 Table table_of(const std::vector<Explanation>& effects, int width) {
   Table table{{{"effect", Align::left, std::max(230, width * 2 / 9)},
-               {"wanted", Align::left, 120},
+               {"computed", Align::left, 120},
                {"where", Align::right, 130},
                {"why"},
                {"saved", Align::right, 170},
@@ -74,8 +77,10 @@ constexpr int widest = 2000, least_width = 1000, margin = 20, gap = 20, above_pa
 constexpr int narrowest_box = 360, tallest_panel = 720;
 
 struct Panel {
-  TextBlock caption;
-  const Explanation* effect = nullptr;  ///< null: the view itself
+  std::vector<Paragraph> words;
+  cv::Mat image, no_surface;  ///< CV_8UC3, CV_8UC1; empty: a gap in a row
+  cv::Rect2d outlined;        ///< part of the image, shares; empty: none
+  TextBlock caption = {};     ///< the words, at the width of the sheet's panels
 };
 
 struct Grid {
@@ -115,21 +120,57 @@ Grid grid_for(int panels, cv::Size image) {
   return best;
 }
 
-std::vector<Panel> panels_of(const std::vector<Explanation>& effects) {
-  std::vector<Panel> panels(1);
-  for (const Explanation& e : effects)
-    if (has_panel(e)) panels.push_back({{}, &e});
-  return panels;
+bool has_pictures(const std::vector<Explanation>& effects) {
+  return std::any_of(effects.begin(), effects.end(),
+                     [](const Explanation& e) { return has_panel(e) && e.part != nullptr; });
 }
 
-void add_captions(std::vector<Panel>& panels, bool is_lit, int width) {
-  for (Panel& panel : panels) {
-    const std::string title = panel.effect ? caption_of(*panel.effect)
-                              : is_lit     ? "the frame's surfaces, lit from the eye"
-                                           : "the frame's colour";
-    const std::string note = panel.effect ? panel.effect->technique : "";
-    panel.caption = block_of({{title, caption_style}, {note, note_style}}, width);
+Panel panel_of_plane(const std::string& title, const std::string& note, const Plane& colour) {
+  const cv::Mat image = coloured(colour);
+  return {{{title, caption_style}, {note, note_style}}, image, cv::Mat(image.size(), CV_8UC1, cv::Scalar(0)), {}};
+}
+
+Panel panel_of_view(const PanelGround& ground) {
+  // A sky has a colour.
+  const cv::Mat nowhere(ground.no_surface.size(), CV_8UC1, cv::Scalar(0));
+  return {{{ground.is_lit ? "the frame's surfaces, lit from the eye" : "the frame's colour", caption_style}},
+          ground.colours,
+          ground.is_lit ? ground.no_surface : nowhere,
+          {}};
+}
+
+Panel panel_of_effect(const Explanation& e, const PanelGround& ground, double largest) {
+  Panel panel{{{caption_of(e), caption_style}, {e.technique, note_style}, {e.says, note_style}},
+              tinted(ground, e, largest),
+              ground.no_surface,
+              {}};
+  if (e.part) panel.outlined = {e.part->left, e.part->top, e.part->width, e.part->height};
+  return panel;
+}
+
+/// What belongs to an effect besides its own panel.
+std::vector<Panel> pictures_of(const Explanation& e) {
+  if (!e.part) return {{}, {}};
+  const std::string every = e.part->step > 1 ? fmt::format("every {}th pixel, as the look saw it", e.part->step) : "";
+  return {panel_of_plane("the outlined part without " + e.effect, every, e.part->without),
+          panel_of_plane("the same part with it", every, e.part->with)};
+}
+
+constexpr int columns_of_pictures = 3;
+
+std::vector<Panel> panels_of(const std::vector<Explanation>& effects, const PanelGround& ground, const Plane* picture,
+                             double largest) {
+  const bool in_rows = has_pictures(effects);
+  std::vector<Panel> panels = {panel_of_view(ground)};
+  if (in_rows && picture) panels.push_back(panel_of_plane("the picture with all that is computed", "", *picture));
+  if (in_rows) panels.resize(columns_of_pictures);
+  for (const Explanation& e : effects) {
+    if (!has_panel(e)) continue;
+    panels.push_back(panel_of_effect(e, ground, largest));
+    if (!in_rows) continue;
+    for (Panel& panel : pictures_of(e)) panels.push_back(std::move(panel));
   }
+  return panels;
 }
 
 /// Heights of the captions of each row of panels.
@@ -142,20 +183,28 @@ std::vector<int> caption_heights(const std::vector<Panel>& panels, const Grid& g
   return heights;
 }
 
+void outline(cv::Mat& canvas, const cv::Rect2d& part, cv::Point corner, cv::Size panel) {
+  if (part.empty()) return;
+  const auto pixels = [](double share, int whole) { return int(std::lround(share * whole)); };
+  cv::rectangle(canvas,
+                cv::Rect(corner.x + pixels(part.x, panel.width), corner.y + pixels(part.y, panel.height),
+                         pixels(part.width, panel.width), pixels(part.height, panel.height)),
+                outline_tone, 2);
+}
+
 /// Draws the panels from `top` on, each with its caption just above it.
-void draw_panels(cv::Mat& canvas, const PanelGround& ground, const std::vector<Panel>& panels, const Grid& grid,
-                 double largest, int top) {
-  const cv::Mat nowhere(ground.no_surface.size(), CV_8UC1, cv::Scalar(0));
+void draw_panels(cv::Mat& canvas, const std::vector<Panel>& panels, const Grid& grid, int top) {
   const std::vector<int> captions = caption_heights(panels, grid);
   for (size_t i = 0; i < panels.size(); ++i) {
+    const Panel& panel = panels[i];
     const int column = int(i) % grid.columns, row = int(i) / grid.columns;
     if (column == 0) top += captions[size_t(row)] + above_panel;
     const cv::Point corner(grid.left(column), top);
-    put_block(canvas, panels[i].caption, corner - cv::Point(0, panels[i].caption.height + above_panel));
-    if (panels[i].effect)
-      put_panel(canvas, tinted(ground, *panels[i].effect, largest), ground.no_surface, corner, grid.panel.image, 1);
-    else  // a sky has a colour
-      put_panel(canvas, ground.colours, ground.is_lit ? ground.no_surface : nowhere, corner, grid.panel.image, 1);
+    put_block(canvas, panel.caption, corner - cv::Point(0, panel.caption.height + above_panel));
+    if (!panel.image.empty()) {
+      put_panel(canvas, panel.image, panel.no_surface, corner, grid.panel.image, 1);
+      outline(canvas, panel.outlined, corner, grid.panel.image);
+    }
     if (column == grid.columns - 1) top += grid.panel.image.height + gap;
   }
 }
@@ -178,10 +227,10 @@ struct Key {
 
 constexpr int swatch_height = 14, key_height = 24;
 
-std::vector<Key> keys_of(const PanelGround& ground, const std::vector<Panel>& panels, double largest) {
-  const auto is_plain = [](const Panel& panel) { return panel.effect && !panel.effect->change; };
+std::vector<Key> keys_of(const PanelGround& ground, const std::vector<Explanation>& effects, double largest) {
+  const auto is_plain = [](const Explanation& e) { return has_panel(e) && !e.change; };
   std::vector<Key> keys;
-  if (largest == 0 || std::any_of(panels.begin(), panels.end(), is_plain))
+  if (largest == 0 || std::any_of(effects.begin(), effects.end(), is_plain))
     keys.push_back({cv::Mat(swatch_height, 28, CV_8UC3, tint_on_paper(1)), "where the effect is called for"});
   if (largest > 0) {
     cv::Mat scale(swatch_height, 112, CV_8UC3);
@@ -237,13 +286,17 @@ void write_explanation(const std::filesystem::path& path, const View& view,
   if (!view.find("depth")) throw Error("{}: cannot explain a view without depth", path.string());
   const PanelGround ground = ground_of(view);
   const double largest = largest_change(explanations);
-  std::vector<Panel> panels = panels_of(explanations);
-  const Grid grid = grid_for(int(panels.size()), ground.colours.size());
-  add_captions(panels, ground.is_lit, grid.panel.box);
+  std::vector<Panel> panels = panels_of(explanations, ground, text.picture, largest);
+  const Grid grid = has_pictures(explanations)
+                        ? grid_with(columns_of_pictures, int(panels.size()), ground.colours.size())
+                        : grid_for(int(panels.size()), ground.colours.size());
+  for (Panel& panel : panels) panel.caption = block_of(panel.words, grid.panel.box);
   const int room = std::max(grid.width(), least_width - 2 * margin);
-  const TextBlock heading = block_of(
-      {{title_of(view, text.title), title_style}, {size_of(ground.colours, grid.panel.zoom_note), note_style}}, room);
-  const std::vector<PlacedKey> keys = placed(keys_of(ground, panels, largest), room);
+  const TextBlock heading = block_of({{title_of(view, text.title), title_style},
+                                      {text.sentence, totals_style},
+                                      {size_of(ground.colours, grid.panel.zoom_note), note_style}},
+                                     room);
+  const std::vector<PlacedKey> keys = placed(keys_of(ground, explanations, largest), room);
   const PlacedTable table = placed(table_of(explanations, room), room);
   const TextBlock totals = block_of({{text.totals, totals_style}}, room);
   // From top to bottom.
@@ -252,7 +305,7 @@ void write_explanation(const std::filesystem::path& path, const View& view,
   cv::Mat canvas(totals_top + totals.height + margin, room + 2 * margin, CV_8UC3, paper);
   put_block(canvas, heading, {margin, margin});
   for (const PlacedKey& key : keys) draw_key(canvas, key, {margin, legend_top});
-  draw_panels(canvas, ground, panels, grid, largest, panels_top);
+  draw_panels(canvas, panels, grid, panels_top);
   put_table(canvas, table, {margin, table_top});
   put_block(canvas, totals, {margin, totals_top});
   write_png(path, canvas);

@@ -61,9 +61,7 @@ void AutoStep::decide_on(AutoFrame& first) {
                                              fmt::join(fixed.request.outputs, " + "), fixed.setting)
                                : fmt::format("{}: in no frame; {}", effect, fixed.why));
   }
-  if (result.spent)
-    if (const std::string missed = note_on_goal(*result.spent, computing_.goal); !missed.empty())
-      lines.push_back(missed);
+  if (const std::string missed = note_on_goal(result, computing_.goal); !missed.empty()) lines.push_back(missed);
   computing_.goal = {};
   for (const std::string& line : lines) events_.note(line);
   // Not of the contents: the times in it differ from run to run.

@@ -38,6 +38,8 @@ TEST_F(AutoBudget, MuchTimeBuysTheLeastError) {
     EXPECT_LT(chosen["expected_error"], effect_of(document, chosen["effect"])["change"]) << chosen;
   }
   EXPECT_GT(document["expected_error"], 0);
+  EXPECT_GT(document["expected_error_uncertainty"], 0);
+  EXPECT_LT(document["expected_error"], document["expected_error_of_color"]);
   const std::string why = document["why"];
   EXPECT_EQ(why.rfind("the most accurate within 1e+06 ms: evidence", 0), 0u) << why;
   EXPECT_NE(why.find("; the next faster, "), std::string::npos) << why;

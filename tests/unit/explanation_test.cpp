@@ -166,6 +166,36 @@ TEST_F(ExplanationTest, TheTintIsStrongerWhereThePictureChangesMore) {
   EXPECT_EQ(red(1, 59, 32), pale);
 }
 
+TEST_F(ExplanationTest, AnEffectHasARowWithThePictureWithoutItAndWithIt) {
+  const View view = view_of(480, 270);
+  const Pixel dark{0, 71, 0}, red{137, 0, 0};
+  const auto of = [](float r, float g) { return patterned_plane("color", 160, 90, {level(r), level(g), level(0)}); };
+  const PicturePart part{
+      .left = 0.5, .top = 0.25, .width = 1 / 3.0, .height = 1 / 3.0, .without = of(0.25f, 0), .with = of(0, 0.0625f)};
+  Explanation computed = effect_with(nullptr), missing = effect_with(nullptr);
+  computed.is_everywhere = missing.is_everywhere = true;
+  computed.part = &part;
+  const Plane picture = patterned_plane("color", 480, 270, {level(0), level(0.0625f), level(0)});
+  write_explanation(folder / "why.png", view, {computed, missing}, {.title = "frame.exr", .picture = &picture});
+  const Picture p = picture_in(folder / "why.png");
+  const std::vector<Corner> panels = panels_in(p, 480, 270);
+  ASSERT_EQ(panels.size(), 6u);  // the colour and the picture; three of the first effect; one of the other
+  const auto middle = [&](size_t panel) { return p.at(panels[panel].x + 5, panels[panel].y + 5); };
+  EXPECT_EQ(middle(0), green);
+  EXPECT_EQ(middle(1), dark);
+  EXPECT_EQ(middle(3), red);
+  EXPECT_EQ(middle(4), dark);
+  EXPECT_EQ(panels[2].y, panels[4].y);
+  EXPECT_GT(panels[5].y, panels[4].y);
+  // The part is outlined in the effect's own panel, and in no other.
+  const Pixel vermilion{213, 94, 0};
+  for (size_t panel = 0; panel < panels.size(); ++panel) {
+    const Corner& corner = panels[panel];
+    EXPECT_EQ(p.at(corner.x + 240, corner.y + 100) == vermilion, panel == 2) << panel;
+    EXPECT_EQ(p.at(corner.x + 300, corner.y + 68) == vermilion, panel == 2) << panel;
+  }
+}
+
 TEST_F(ExplanationTest, SheetsFitAScreenWhateverTheImageAndTheNumberOfEffects) {
   Explanation everywhere = effect_with(nullptr);
   everywhere.is_everywhere = true;

@@ -73,8 +73,11 @@ void run_on_one_frame(const AutoCommand& flags) {
   if (explains) {
     for (const View& view : frame.views) {
       written.push_back(picture_path(flags.explain, view.name, frame.views.size() > 1).string());
-      write_explanation(written.back(), view, explanations_of(result.outcomes, view.name),
-                        {planned.files.name(), totals_in_words(result, flags.goal)});
+      write_explanation(written.back(), view, explanations_of(result, view.name),
+                        {.title = planned.files.name(),
+                         .sentence = sentence_on(result),
+                         .totals = totals_in_words(result, flags.goal),
+                         .picture = result.picture ? result.picture->view(view.name).find("color") : nullptr});
     }
   }
   std::optional<Composition> composition;
@@ -96,8 +99,7 @@ void run_on_one_frame(const AutoCommand& flags) {
     if (flags.is_out_made) result.frame.attributes[named_by_gloam] = frame_seen_from(flags.frame.frame, flags.out);
     write_frame(flags.out, result.frame, writing);
   }
-  if (result.spent)
-    if (const std::string missed = note_on_goal(*result.spent, flags.goal); !missed.empty()) note({missed});
+  if (const std::string missed = note_on_goal(result, flags.goal); !missed.empty()) note({missed});
   Json document = document_of(result, flags.goal, device.info());
   document["memory_bytes"] = memory;
   if (composition) {

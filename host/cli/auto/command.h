@@ -37,7 +37,7 @@ void run_auto_on_shot(const AutoCommand& flags);
 /// The table of effects, and for a budget a line of what was spent.
 void print(const AutoResult& result, const Goal& goal);
 
-/// The effects and their refinements, on one view. Points to planes of `outcomes`.
-std::vector<Explanation> explanations_of(const std::vector<Outcome>& outcomes, const std::string& view);
+/// The effects and their refinements, on one view. Points to planes of `result`.
+std::vector<Explanation> explanations_of(const AutoResult& result, const std::string& view);
 
 }  // namespace gloam::cli

@@ -44,9 +44,15 @@ struct Decision {
 /// Whether an effect is computed through its mask, if the decision has one, or everywhere: as stated, or whichever is faster.
 enum class MaskUse { measured, always, never };
 
+/// RMS error of the picture, as a look expects it of what is computed.
+struct ExpectedError {
+  double error = 0;
+  double uncertainty = 0;     ///< standard deviation of the error
+  double of_color_alone = 0;  ///< of the picture without any effect
+};
+
 struct Spent {
-  double expected_error = 0;  ///< RMS of the picture
-  double glance_ms = 0;       ///< of looking: probes for masks, and the glance
+  double glance_ms = 0;  ///< of looking: probes for masks, and the glance
   /// The goal was not met: no choice is expected to reach the error, or nothing fits the time that the glance leaves.
   bool is_missed = false;
   double cheapest_ms = 0;  ///< of the fastest option of any effect, the glance included
@@ -67,8 +73,10 @@ struct Outcome {
   double change = std::numeric_limits<double>::quiet_NaN(), lost = std::numeric_limits<double>::quiet_NaN();
   std::string setting;       ///< "medium, half", where a budget chose
   bool is_left_out = false;  ///< wanted, but the budget does without
-  /// For each pixel of the glance, by view, how far the effect changes the picture (`Glance::change_by`); empty: not known.
+  /// For each pixel of the glance, by view, how far the effect changes the picture (`Glance::changes_by`); empty: not known.
   std::map<std::string, Plane> changes;
+  /// By view, the part of the picture that the effect changes most; empty: not known.
+  std::map<std::string, PicturePart> parts;
   /// Whether it is computed.
   bool runs() const { return decision.effect.is_wanted && !is_left_out; }
 };
@@ -138,11 +146,14 @@ struct AutoSettings {
 struct AutoResult {
   Frame frame;  ///< with planes of every effect, without depth
   std::vector<Outcome> outcomes;
-  std::optional<Radius> used_radius;  ///< none: no effect that can be computed has one
-  std::optional<double> radius_cap;   ///< share of the image's width (`cap_of`)
-  std::optional<Spent> spent;         ///< of a budget
-  double glance_ms = 0;               ///< device time of looking at the picture
-  std::vector<std::string> notes;     ///< what does not suit the frame, and what was assumed: a sentence each
+  std::optional<Radius> used_radius;      ///< none: no effect that can be computed has one
+  std::optional<double> radius_cap;       ///< share of the image's width (`cap_of`)
+  std::optional<Spent> spent;             ///< of a budget
+  std::optional<ExpectedError> expected;  ///< where the frame was looked at for a budget or an explanation
+  std::optional<Frame> picture;           ///< of all that is computed, for an explanation
+  double picture_rms = 0;                 ///< over surfaces, as the look saw it with all effects; 0: not known
+  double glance_ms = 0;                   ///< device time of looking at the picture
+  std::vector<std::string> notes;         ///< what does not suit the frame, and what was assumed: a sentence each
 };
 
 // --- In one call.
@@ -189,10 +200,10 @@ AutoResult compute_effects(AutoPlan& planned, const AutoSettings& settings, cons
 // --- In words.
 
 /// One line where a goal was missed; empty if it was not.
-std::string note_on_goal(const Spent& spent, const Goal& goal);
+std::string note_on_goal(const AutoResult& result, const Goal& goal);
 
 /// JSON as `gloam auto --json` writes it: "effects", "classify_ms", "glance_ms", "total_ms", "device"; with a goal also "chosen",
-/// "budget_ms" or "error_goal", "expected_error", "goal_met" and "why".
+/// "budget_ms" or "error_goal", "expected_error", "expected_error_uncertainty", "expected_error_of_color", "goal_met" and "why".
 std::string json_of(const AutoResult& result, const Goal& goal, const DeviceInfo& device);
 
 }  // namespace gloam

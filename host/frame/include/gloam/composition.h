@@ -20,6 +20,13 @@ struct ComposeOptions {
   std::map<std::string, std::string> names_in_file = {};
 };
 
+/// A part of a view's picture, without one effect's planes and with them.
+struct PicturePart {
+  double left = 0, top = 0, width = 1, height = 1;  ///< shares of the image
+  Plane without, with;                              ///< its colour, linear
+  int step = 1;                                     ///< every `step`-th pixel of every `step`-th row of the image
+};
+
 /// One plane of those that were computed.
 struct ComposedPart {
   std::string plane;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gloam/composition.h"
 #include "gloam/frame.h"
 
 namespace gloam {
@@ -20,6 +21,7 @@ struct Explanation {
   std::string why;    ///< a sentence
   std::string saved;  ///< time: "3.2 of 8.1 ms"; may be empty
   std::string lost;   ///< error of the picture: ".0021 RMSE of the picture"; may be empty
+  std::string says;   ///< what it changes, what that takes, and what the choice misses: a sentence; may be empty
   /// Above 0 where the effect is called for; one value per pixel or square tile, whose side is a power of two. Null: unknown.
   const Plane* cells = nullptr;
   /// Computed everywhere, as so much of the image calls for it that a mask would not pay. Without `cells`, all of it does.
@@ -27,17 +29,21 @@ struct Explanation {
   /// How much the effect changes the picture, 0 or more; one value per pixel or square tile. Drawn as the strength of the tint, on
   /// one scale for all effects. Null: unknown.
   const Plane* change = nullptr;
+  /// Of the picture the part that the effect changes most. Null: unknown.
+  const PicturePart* part = nullptr;
 };
 
 /// What the picture says besides the effects.
 struct ExplanationText {
-  std::string title;   ///< the file's name
-  std::string totals;  ///< sentences below the table; may be empty
+  std::string title;               ///< the file's name
+  std::string sentence;            ///< below the title; may be empty
+  std::string totals;              ///< sentences below the table; may be empty
+  const Plane* picture = nullptr;  ///< the view's colour with all that is computed; null: unknown
 };
 
 /// Draws a view's colours (its surfaces lit from the eye, if it has none), and beside them a panel for each effect that is wanted or
-/// has `cells`: the same in pale grey, with a tint on surfaces where the effect is called for. Below the panels, a table of all
-/// effects. Text is broken between words. At most 2000 pixels wide. PNG, written atomically. Throws Error for a view without depth.
+/// has `cells`: the same in pale grey, with a tint on surfaces where the effect is called for. Where the picture is known, each effect has a row:
+/// this panel, and the outlined part of the picture without the effect and with it. Below the panels, a table of all effects. Text is broken between words. At most 2000 pixels wide. PNG, written atomically. Throws Error for a view without depth.
 void write_explanation(const std::filesystem::path& path, const View& view,
                        const std::vector<Explanation>& explanations, const ExplanationText& text = {});
 
