@@ -165,7 +165,7 @@ FixedEffects fixed_by(const AutoResult& first) {
     const bool is_possible = outcome.plan || outcome.is_left_out;
     if (!is_possible || (!first.spent && !effect.is_too_faint)) continue;
     std::string why = effect.why;
-    if (outcome.is_left_out) why = "the budget does without";
+    if (outcome.is_left_out) why = "the choice for the goal does without";
     fixed[effect.technique->name] = {outcome.runs(), outcome.decision.request, why + ", on the first frame",
                                      outcome.setting};
   }

@@ -89,12 +89,12 @@ class Spending {
     BudgetedEffect& effect = effects_[i];
     const EffectOption& option = effect.options[size_t(effect.chosen)];
     Plan plan = make_plan(option.request, means_.available, means_.holds);
-    RunResult result = timed(plan, means_.frame, means_);
+    RunResult result = timed(option, plan, means_.frame, means_);
     const double everywhere = median(result.total_ms);
     take(effect, std::move(plan), std::move(result), false);
     speeds_.add(option.label(), size_of(means_.frame), everywhere);
     corrections_[i] = everywhere / std::max(effect.expected_ms[size_t(effect.chosen)], 1e-6);
-    if (!effect.mask.empty()) try_mask(effect, option);
+    if (!effect.mask.empty() && !option.is_seen) try_mask(effect, option);
     // The slower of two times is kept, so that noise does not make a choice go round in circles.
     double& kept = times_[i][effect.chosen];
     kept = std::max(kept, effect.ms);
@@ -181,7 +181,7 @@ Spent spend(std::vector<BudgetedEffect>& effects, const Goal& goal, const Budget
       why_chosen(problem, choice, goal, [&](const std::vector<int>& options) { return label_of(effects, options); });
   name_cheapest(effects, problem, spent);
   const bool any = std::any_of(effects.begin(), effects.end(), [](const auto& e) { return e.chosen != left_out; });
-  if (goal.ms && !any && !effects.empty()) spent.is_missed = true;
+  if (goal.ms && !any && !effects.empty() && spent.cheapest_ms > *goal.ms) spent.is_missed = true;
   for (BudgetedEffect& effect : effects) effect.lost = lost_by(effect, means.glance);
   speeds.keep();
   return spent;

@@ -4,6 +4,7 @@
 
 #include "base/lists.h"
 #include "gloam/composition.h"
+#include "plan/resample.h"
 
 namespace gloam {
 namespace {
@@ -50,6 +51,16 @@ bool complete(EffectOption& option, const Technique& technique, const EffectProb
   }
 }
 
+bool is_as_seen(const EffectOption& option, const Technique& technique, const SeenEffect& seen,
+                const EffectProbe& probe) {
+  const PlanRequest& request = option.request;
+  if (&technique != seen.technique || request.preset != seen.preset || request.resolution != seen.step) return false;
+  if (seen.step == 1 || !request.adaptive.empty()) return false;
+  const Plan plan = make_plan(request, probe.available, probe.holds);
+  const auto is_seen = [&](const std::string& plane) { return contains(seen.planes, plane); };
+  return std::all_of(plan.outputs.begin(), plan.outputs.end(), is_seen) && upsampling_of(plan);
+}
+
 }  // namespace
 
 std::vector<UsedPlane> EffectOption::planes_on(const SeenChanges& seen) const {
@@ -58,7 +69,7 @@ std::vector<UsedPlane> EffectOption::planes_on(const SeenChanges& seen) const {
   return planes;
 }
 
-std::vector<EffectOption> options_of(const Technique& technique, const EffectProbe& probe) {
+std::vector<EffectOption> options_of(const Technique& technique, const EffectProbe& probe, const SeenEffect& seen) {
   std::vector<EffectOption> options;
   for (const std::vector<std::string>& techniques : combinations_of(technique)) {
     for (const std::string& preset : presets_of(technique, probe.asked)) {
@@ -68,6 +79,7 @@ std::vector<EffectOption> options_of(const Technique& technique, const EffectPro
         option.request.preset = preset;
         option.request.resolution = resolution;
         if (!complete(option, technique, probe)) continue;
+        option.is_seen = is_as_seen(option, technique, seen, probe);
         options.push_back(std::move(option));
       }
     }

@@ -18,8 +18,16 @@ struct EffectOption : PlanOption {
   std::vector<UsedPlane> planes_on(const SeenChanges& seen) const;
 };
 
-/// All options of an effect that the frame calls for. `technique`: what runs for it, which may refine the effect's. A preset or a
+/// What the look has computed of an effect, on every `step`-th pixel.
+struct SeenEffect {
+  const Technique* technique = nullptr;
+  std::string preset;
+  std::vector<std::string> planes;
+  int step = 1;
+};
+
+/// All options of an effect that the frame calls for. The one that `seen` is, is to be filled in from there. `technique`: what runs for it, which may refine the effect's. A preset or a
 /// resolution that was asked for stands. Options whose plan the frame does not allow are left out.
-std::vector<EffectOption> options_of(const Technique& technique, const EffectProbe& probe);
+std::vector<EffectOption> options_of(const Technique& technique, const EffectProbe& probe, const SeenEffect& seen);
 
 }  // namespace gloam

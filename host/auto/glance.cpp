@@ -63,11 +63,9 @@ void Glance::take_planes_of(const Plan& plan, Device& device, const RunOptions& 
   RunResult result = run(plan, small_, device, thrice);
   ms_ += median(result.total_ms);
   for (View& view : result.frame.views) {
-    for (const std::string& name : part_planes()) {
-      const auto found = view.planes.find(name);
-      if (found == view.planes.end()) continue;
-      parts_.view(view.name).planes[name] = std::move(found->second);
-      add_new(planes_, name);
+    for (auto& [name, plane] : view.planes) {
+      parts_.view(view.name).planes[name] = std::move(plane);
+      if (contains(part_planes(), name)) add_new(planes_, name);
     }
   }
 }

@@ -44,6 +44,8 @@ class Glance {
   double share_of(const std::string& plane) const;
   /// Device time so far.
   double ms() const { return ms_; }
+  /// The planes of effects, as they were seen.
+  const Frame& parts() const { return parts_; }
   /// The frame's planes on few pixels.
   const Frame& small() const { return small_; }
 

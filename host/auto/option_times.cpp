@@ -2,8 +2,11 @@
 
 #include <algorithm>
 
+#include "auto/changes.h"
 #include "base/statistics.h"
 #include "frame/subsample.h"
+#include "gloam/planes.h"
+#include "plan/resample.h"
 
 namespace gloam {
 namespace {
@@ -37,9 +40,32 @@ void measure_options(const std::vector<const EffectOption*>& options, const Budg
     if (means.measuring) means.measuring(int(i), int(options.size()));
     const Plan plan = make_plan(options[i]->request, means.available, means.holds);
     for (const Frame* frame : {&small, &other})
-      speeds.add(options[i]->label(), size_of(*frame), median(timed(plan, *frame, means).total_ms));
+      speeds.add(options[i]->label(), size_of(*frame), median(timed(*options[i], plan, *frame, means).total_ms));
   }
   if (means.measuring) means.measuring(int(options.size()), int(options.size()));
+}
+
+Plane level(const std::string& name, const Layout& layout) {
+  Plane plane{name, {}};
+  const PlaneKind kind = plane_kind(name);
+  for (size_t c = 0; c < kind.components.size(); ++c) plane.channels.emplace_back(layout, kind.outside);
+  return plane;
+}
+
+/// What upsampling reads of a frame, and of the look.
+Frame with_seen(const Frame& frame, const Upsampling& left, const Plan& plan, const BudgetMeans& means) {
+  Frame both = with_planes(frame, left.plan.inputs);
+  const Layout reduced_size = reduced(Layout(frame.width(), frame.height()), plan.resolution);
+  for (View& view : both.views) {
+    for (size_t i = 0; i < left.given.size(); ++i) {
+      const std::string& name = left.given[i];
+      Plane plane = &frame == &means.frame ? means.glance.parts().view(view.name).find(plan.outputs[i])->clone()
+                                           : level(name, reduced_size);
+      plane.name = name;
+      view.planes[name] = std::move(plane);
+    }
+  }
+  return both;
 }
 
 }  // namespace
@@ -48,6 +74,12 @@ RunResult timed(const Plan& plan, const Frame& frame, const BudgetMeans& means) 
   RunOptions options = means.options;
   options.repeat = std::max(3, means.options.repeat);
   return run(plan, frame, means.device, options);
+}
+
+RunResult timed(const EffectOption& option, const Plan& plan, const Frame& frame, const BudgetMeans& means) {
+  if (!option.is_seen) return timed(plan, frame, means);
+  const Upsampling left = *upsampling_of(plan);
+  return timed(left.plan, with_seen(frame, left, plan, means), means);
 }
 
 void expect_times(std::vector<BudgetedEffect>& effects, const BudgetMeans& means, OptionSpeeds& speeds) {

@@ -1,5 +1,6 @@
 #include "auto/report.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/json_text.h"
@@ -134,8 +135,18 @@ std::string sentence_on(const AutoResult& result) {
 }
 
 std::string note_on_goal(const AutoResult& result, const Goal& goal) {
-  if (!result.spent || !result.spent->is_missed) return "";
+  if (!result.spent) return "";
   const Spent& spent = *result.spent;
+  const auto is_left_out = [](const Outcome& o) { return o.is_left_out; };
+  const auto runs = [](const Outcome& o) { return o.runs(); };
+  const std::vector<Outcome>& all = result.outcomes;
+  if (!spent.is_missed && goal.ms && std::none_of(all.begin(), all.end(), runs) &&
+      std::any_of(all.begin(), all.end(), is_left_out))
+    return fmt::format(
+        "{}: all effects were left out, as the colour alone is expected to be nearer to the truth than with any that "
+        "fits",
+        in_words(goal));
+  if (!spent.is_missed) return "";
   if (goal.error)
     return fmt::format("{}: no choice is expected to reach it; the nearest, {:.4f}, was taken", in_words(goal),
                        result.expected.value_or(ExpectedError{}).error);

@@ -14,13 +14,18 @@ namespace {
 
 constexpr double unlooked_at = std::numeric_limits<double>::quiet_NaN();
 
+/// The preset of an effect in the look.
+std::string preset_of_glance(const Technique& technique, const PlanRequest& asked) {
+  return asked.preset.empty() && !technique.presets.empty() ? technique.presets.front().name : asked.preset;
+}
+
 /// The effect at its cheapest, with all that completes it.
 PlanRequest request_of_glance(const Technique& technique, const EffectProbe& probe) {
   PlanRequest request = request_everywhere(technique, probe.asked);
   request.resolution = 1;
   request.with.clear();
   request.adaptive.clear();
-  if (request.preset.empty() && !technique.presets.empty()) request.preset = technique.presets.front().name;
+  request.preset = preset_of_glance(technique, probe.asked);
   for (const Technique* more : techniques_that_complete(technique)) {
     const std::vector<std::string>& reads = more->reads;
     const bool has_all = std::all_of(reads.begin(), reads.end(), [&](const std::string& plane) {
@@ -64,7 +69,8 @@ std::vector<Plan> plans_of_glance(const std::vector<const Candidate*>& candidate
   return plans;
 }
 
-BudgetedEffect budgeted(const Candidate& candidate, const Outcome& outcome, bool with_mask, const EffectProbe& probe) {
+BudgetedEffect budgeted(const Candidate& candidate, const Outcome& outcome, bool with_mask, const Glance& glance,
+                        const EffectProbe& probe) {
   BudgetedEffect effect;
   effect.technique = candidate.technique;
   const PlanRequest& request = outcome.decision.request;
@@ -72,7 +78,9 @@ BudgetedEffect budgeted(const Candidate& candidate, const Outcome& outcome, bool
     effect.mask = request.only;
     effect.elsewhere = request.elsewhere;
   }
-  effect.options = options_of(find_technique(request.outputs.front()), probe);
+  effect.options = options_of(find_technique(request.outputs.front()), probe,
+                              {candidate.technique, preset_of_glance(*candidate.technique, probe.asked),
+                               common_planes(glance.parts()), scale_of_glance(probe.frame)});
   return effect;
 }
 
@@ -152,8 +160,8 @@ void spend_budget(const Candidates& candidates, const AutoSettings& settings, co
     Outcome& outcome = result.outcomes[i];
     probing_ms += outcome.decision.effect.classify_ms;
     if (!outcome.decision.effect.is_wanted) continue;
-    effects.push_back(
-        budgeted(candidates.possible[i], outcome, settings.mask != MaskUse::never, probe_for(candidates.possible[i])));
+    effects.push_back(budgeted(candidates.possible[i], outcome, settings.mask != MaskUse::never, glance,
+                               probe_for(candidates.possible[i])));
     owners.push_back(&outcome);
   }
   const EffectProbe probe = probe_for(candidates.possible.front());

@@ -16,7 +16,7 @@ void check_window(const Frame& frame) {
 }
 
 void check(const Plane& plane, const Frame& frame) {
-  const Layout layout(frame.width(), frame.height());
+  const Layout layout = reduced(Layout(frame.width(), frame.height()), resolution_in(plane.name));
   const size_t components = plane_kind(plane.name).components.size();
   if (plane.channels.size() != components)
     throw Error("plane '{}' has {} channels; it needs {}", plane.name, plane.channels.size(), components);

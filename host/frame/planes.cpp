@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <limits>
 #include <stdexcept>
 
@@ -111,6 +112,13 @@ const std::vector<PlaneKind>& plane_kinds() {
       kind("hit", {""}, {"hit.Z"}, 0, K::length, "length of the reflected ray, scene units; 0 where it meets nothing"),
   };
   return kinds;
+}
+
+int resolution_in(std::string_view name) {
+  const size_t at = name.find('@');
+  int resolution = 1;
+  if (at != std::string_view::npos) std::from_chars(name.data() + at + 1, name.data() + name.size(), resolution);
+  return std::max(resolution, 1);
 }
 
 PlaneKind plane_kind(std::string_view name) {

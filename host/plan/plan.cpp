@@ -200,6 +200,7 @@ Plan make_plan(const PlanRequest& given, const std::vector<std::string>& availab
 
 std::map<std::string, int> plane_scales(const Plan& plan) {
   std::map<std::string, int> scales;
+  for (const std::string& input : plan.inputs) scales.emplace(input, resolution_in(input));
   for (const PlannedPass& planned : plan.passes) {
     for (const Binding& b : planned.pass.reads) scales.emplace(b.plane, b.layers > 0 ? planned.scale : 1);
     for (const Binding& b : planned.pass.writes)

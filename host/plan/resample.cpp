@@ -1,11 +1,13 @@
 #include "plan/resample.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
 #include "base/lists.h"
 #include "gloam/option.h"
 #include "gloam/planes.h"
+#include "plan/layouts.h"
 #include "resample/params.h"
 
 namespace gloam {
@@ -135,6 +137,21 @@ class Reduction {
   std::map<std::string, bool> agreed_;  ///< for these planes, whether two views agree
 };
 
+/// The passes that outputs are made by, from the planes at hand.
+std::vector<PlannedPass> passes_to(std::vector<std::string> needed, const std::vector<std::string>& at_hand,
+                                   const std::vector<PlannedPass>& passes) {
+  std::vector<PlannedPass> left;
+  for (auto planned = passes.rbegin(); planned != passes.rend(); ++planned) {
+    const std::vector<Binding>& writes = planned->pass.writes;
+    if (std::none_of(writes.begin(), writes.end(), [&](const Binding& b) { return contains(needed, b.plane); }))
+      continue;
+    for (const Binding& read : planned->pass.reads)
+      if (!contains(at_hand, read.plane)) add_new(needed, read.plane);
+    left.insert(left.begin(), *planned);
+  }
+  return left;
+}
+
 /// Whether a technique makes a stack. If nobody asked for it, it is made for the technique that reads it, at the same resolution.
 bool makes_stack(const Technique& technique) {
   return std::any_of(technique.writes.begin(), technique.writes.end(),
@@ -168,6 +185,24 @@ void reduce(Plan& plan, const std::vector<const Technique*>& techniques, const P
   else
     plan.outputs = reduction.reduced_outputs();
   plan.passes = std::move(reduction.passes);
+}
+
+std::optional<Upsampling> upsampling_of(const Plan& plan) {
+  Upsampling left{plan, {}};
+  for (const std::string& output : plan.outputs) left.given.push_back(reduced_name(output, plan.resolution));
+  const auto is_made_there = [&](const std::string& plane) {
+    return std::any_of(plan.passes.begin(), plan.passes.end(), [&](const PlannedPass& planned) {
+      const std::vector<Binding>& writes = planned.pass.writes;
+      return std::any_of(writes.begin(), writes.end(), [&](const Binding& b) { return b.plane == plane; });
+    });
+  };
+  if (plan.resolution == 1 || !std::all_of(left.given.begin(), left.given.end(), is_made_there)) return {};
+  left.plan.passes = passes_to(plan.outputs, left.given, plan.passes);
+  const std::set<std::string> read = planes_of(left.plan);
+  std::erase_if(left.plan.inputs, [&](const std::string& input) { return !read.contains(input); });
+  std::erase_if(left.plan.stacks, [&](const auto& stack) { return !read.contains(stack.first); });
+  left.plan.inputs.insert(left.plan.inputs.end(), left.given.begin(), left.given.end());
+  return left;
 }
 
 }  // namespace gloam

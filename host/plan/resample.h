@@ -1,6 +1,8 @@
 // Lower resolution: turns a plan for the whole image into one for every n-th pixel each way.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "gloam/plan.h"
@@ -17,5 +19,13 @@ const Technique& resampling();
 /// outputs are not to be upsampled, the plan returns the reduced ones.
 void reduce(Plan& plan, const std::vector<const Technique*>& techniques, const ParameterValues& values,
             bool is_upsampled = true);
+
+/// What is left of a plan at a lower resolution if its outputs are given there: their upsampling, from the planes `given` ("ao@4") beside those
+/// of the frame. None for a plan with outputs that are not upsampled.
+struct Upsampling {
+  Plan plan;
+  std::vector<std::string> given;
+};
+std::optional<Upsampling> upsampling_of(const Plan& plan);
 
 }  // namespace gloam

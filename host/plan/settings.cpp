@@ -72,12 +72,16 @@ void set_default_radius(double radius, const Techniques& order, std::vector<Para
 
 /// Sets the values that a technique gives to its follower.
 void set_followers(const Techniques& order, std::vector<ParameterValues>& values) {
-  for (const Technique* technique : order) {
-    for (size_t i = 0; i < order.size(); ++i) {
-      if (order[i]->name != technique->then && !filters_extra_of(*order[i], *technique)) continue;
-      for (const auto& [name, value] : technique->then_with) values[i].set(name, value, order[i]->name);
-    }
-  }
+  const auto set = [&](const Technique& technique, size_t follower) {
+    for (const auto& [name, value] : technique.then_with) values[follower].set(name, value, order[follower]->name);
+  };
+  for (const Technique* technique : order)
+    for (size_t i = 0; i < order.size(); ++i)
+      if (filters_extra_of(*order[i], *technique)) set(*technique, i);
+  // Of two techniques that a filter may follow, the one that it follows anyway decides, not the one whose extra it could make.
+  for (const Technique* technique : order)
+    for (size_t i = 0; i < order.size(); ++i)
+      if (order[i]->name == technique->then) set(*technique, i);
 }
 
 /// A follower inherits the radius of the technique that it follows, and so does accumulation over time.

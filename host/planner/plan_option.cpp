@@ -9,8 +9,9 @@ namespace gloam {
 std::string PlanOption::label() const { return fmt::format("{}, {}", fmt::join(request.outputs, " + "), setting()); }
 
 std::string PlanOption::setting() const {
-  return fmt::format("{}, {}{}", request.preset.empty() ? "default" : request.preset,
-                     word_for(request.resolution, resolution_words), request.temporal ? ", temporal" : "");
+  return fmt::format("{}, {}{}{}", request.preset.empty() ? "default" : request.preset,
+                     word_for(request.resolution, resolution_words), request.temporal ? ", temporal" : "",
+                     is_seen ? ", from the look" : "");
 }
 
 }  // namespace gloam

@@ -21,6 +21,16 @@ std::optional<size_t> next_faster(const std::vector<Figures>& all, size_t chosen
   return next;
 }
 
+/// Where nothing that is faster is worse: the most accurate of the others within the goal.
+std::optional<size_t> next_best(const std::vector<Figures>& all, size_t chosen, const Goal& goal) {
+  std::optional<size_t> next;
+  for (size_t i = 0; i < all.size(); ++i) {
+    if (i == chosen || !is_within(all[i], goal)) continue;
+    if (!next || all[i].error < all[*next].error) next = i;
+  }
+  return next;
+}
+
 std::string errs_more(double error, double than, const OptionWords& words) {
   const double percent = 100 * (error / than - 1);
   if (than > 0 && error < most_times * than) return fmt::format("errs {:.{}f} % more", percent, percent < 9.95 ? 1 : 0);
@@ -40,7 +50,12 @@ std::string why_chosen(const std::vector<Figures>& all, size_t chosen, const Goa
                                   : fmt::format("nothing is {}, and nearest to it", bound);
   const std::string one = fmt::format("{}: {} {}", what, words.label(chosen), with_figures(all[chosen], words));
   const std::optional<size_t> next = next_faster(all, chosen);
-  if (!next) return one + "; nothing faster is known";
+  if (!next) {
+    const std::optional<size_t> other = goal.ms && is_met ? next_best(all, chosen, goal) : std::nullopt;
+    if (!other) return one + "; nothing faster is known";
+    return fmt::format("{}; nothing faster is known, and the next best, {}, takes {:.2f} ms and {}", one,
+                       words.label(*other), all[*other].ms, errs_more(all[*other].error, all[chosen].error, words));
+  }
   return fmt::format("{}; the next faster, {}, takes {:.2f} ms and {}", one, words.label(*next), all[*next].ms,
                      errs_more(all[*next].error, all[chosen].error, words));
 }

@@ -71,6 +71,32 @@ TEST_F(AutoBudget, WhatItTellsIsWhatItDoes) {
   }
 }
 
+// The look takes every second pixel of a frame of 192 x 108, and every fourth of a larger one.
+TEST_F(AutoBudget, WhatTheLookHasComputedIsFilledInAndIsTheSame) {
+  ASSERT_EQ(gloam({"capture", "gallery", "-o", path("large.exr"), "--size", "384x216"}).status, 0);
+  for (const auto& [frame, resolution] : {std::pair("frame.exr", "half"), std::pair("large.exr", "quarter")}) {
+    const Result result = automatic({"--budget", "1000s", "--preset", "low", "--resolution", resolution}, frame);
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_NE(result.json()["why"].get<std::string>().find(std::string(resolution) + ", from the look"),
+              std::string::npos)
+        << result.json()["why"];
+    ASSERT_GE(result.json()["chosen"].size(), 1u);
+    for (const Json& chosen : result.json()["chosen"]) {
+      ASSERT_EQ(gloam({"run", chosen["technique"].get<std::string>(), path(frame), "-o", path("run.exr"), "--preset",
+                       "low", "--resolution", resolution})
+                    .status,
+                0);
+      const std::string plane = chosen["planes"][0];
+      const Frame out = FrameFile(path("out.exr"), {}).read({plane}),
+                  run = FrameFile(path("run.exr"), {}).read({plane});
+      EXPECT_EQ(difference(*out.views[0].find(plane), *run.views[0].find(plane)).max, 0) << chosen;
+    }
+  }
+  // The other resolutions are no less there.
+  const Result other = automatic({"--budget", "1000s", "--preset", "low", "--resolution", "quarter"});
+  EXPECT_EQ(other.json()["why"].get<std::string>().find("from the look"), std::string::npos) << other.json()["why"];
+}
+
 TEST_F(AutoBudget, ATimeThatNothingFitsNamesTheCheapest) {
   const Result result = automatic({"--budget", "1us"});
   ASSERT_EQ(result.status, 0) << result.err;
@@ -120,6 +146,9 @@ TEST_F(AutoBudget, AnotherTableOfErrorsIsTakenOrRefusedInOneLine) {
   const Result result = gloam(words, {{"GLOAM_EFFECT_ERRORS", path("nothing.json")}});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(result.json()["chosen"].size(), 0u) << result.json()["why"];
+  EXPECT_EQ(result.json()["goal_met"], true);
+  EXPECT_EQ(result.lines_of_error(), 1) << result.err;
+  EXPECT_NE(result.err.find("the colour alone is expected to be nearer to the truth"), std::string::npos) << result.err;
 }
 
 // What no mask can save is not searched for: the look has found ambient occlusion nearly everywhere.

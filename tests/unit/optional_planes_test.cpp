@@ -35,6 +35,19 @@ TEST(OptionalPlanes, AreReadWhereTheFrameHasThem) {
   EXPECT_FALSE(has_define(without, "WITH_BACK_DEPTH"));
 }
 
+// indirect could make AO of its own, which the same filter would follow.
+TEST(Filters, FollowTheTechniqueThatMakesWhatTheyFilter) {
+  const Names available = {"depth", "normal", "color", "albedo"};
+  const auto width_of = [&](const Names& outputs) {
+    const Plan plan = plan_of({.outputs = outputs}, available);
+    const auto filter = std::find_if(plan.passes.begin(), plan.passes.end(),
+                                     [](const PlannedPass& planned) { return planned.technique->name == "bilateral"; });
+    return filter == plan.passes.end() ? "none" : filter->values.text("half_width");
+  };
+  EXPECT_EQ(width_of({"evidence"}), "3");
+  EXPECT_EQ(width_of({"evidence", "indirect"}), "3");
+}
+
 TEST(OptionalPlanes, AreSubsampledLikeOthers) {
   const Plan plan = plan_of({.outputs = {"evidence"}, .resolution = 2}, {"depth", "normal", "back_depth"});
   const Names labels = labels_of(plan);

@@ -60,7 +60,15 @@ TEST(PlannerReason, NamesTheChoiceAndTheNextFaster) {
             "the fastest within RMSE 0.3: a with 10.00 ms and RMSE 0.2000; the next faster, d, takes 4.00 ms and errs "
             "100 % more");
   EXPECT_EQ(why_chosen(measured, 3, {.ms = 4}, letters),
-            "the most accurate within 4 ms: d with 4.00 ms and RMSE 0.4000; nothing faster is known");
+            "the most accurate within 4 ms: d with 4.00 ms and RMSE 0.4000; nothing faster is known, and the next "
+            "best, b, takes "
+            "4.00 ms and errs 25 % more");
+  EXPECT_EQ(why_chosen({{4, 0.4}}, 0, {.ms = 4}, letters),
+            "the most accurate within 4 ms: a with 4.00 ms and RMSE 0.4000; nothing faster is known");
+  EXPECT_EQ(
+      why_chosen({{1, 0.1}, {5, 0.2}, {20, 0.15}}, 0, {.ms = 10}, letters),
+      "the most accurate within 10 ms: a with 1.00 ms and RMSE 0.1000; nothing faster is known, and the next best, "
+      "b, takes 5.00 ms and errs 100 % more");
   EXPECT_NE(why_chosen({{2, 1}, {1, 1.034}}, 0, {.ms = 2}, letters).find("errs 3.4 % more"), std::string::npos);
   EXPECT_NE(why_chosen({{2, 0}, {1, 0.5}}, 0, {.ms = 2}, letters).find("has RMSE 0.5000"), std::string::npos);
   EXPECT_NE(why_chosen(measured, 3, {.ms = 1}, letters).find("nothing is within 1 ms, and nearest to it: d"),

@@ -8,6 +8,7 @@
 #include <random>
 #include <set>
 
+#include "gloam/compute.h"
 #include "gloam/error.h"
 #include "gloam/normalise.h"
 #include "gloam/plan.h"
@@ -50,6 +51,42 @@ TEST(Resolution, APlanEstimatesAndFiltersBetweenTwoResamplings) {
       EXPECT_EQ(planes.at(plane), 1) << plane;
       EXPECT_EQ(planes.at(fmt::format("{}@{}", plane, resolution)), resolution) << plane;
     }
+  }
+}
+
+TEST(Resolution, WhatIsGivenIsNotComputedAgain) {
+  const Plan plan = plan_of({.outputs = {"hbao+"}, .only_filtered = true, .resolution = 4});
+  const std::optional<Upsampling> left = upsampling_of(plan);
+  ASSERT_TRUE(left);
+  EXPECT_EQ(left->given, (Names{"ao@4"}));
+  EXPECT_EQ(labels_of(left->plan),
+            (Names{"resample/subsample depth", "resample/subsample normal", "resample/upsample ao"}));
+  EXPECT_EQ(left->plan.inputs, (Names{"depth", "normal", "ao@4"}));
+  EXPECT_EQ(plane_scales(left->plan).at("ao@4"), 4);
+  EXPECT_FALSE(upsampling_of(plan_of({.outputs = {"hbao+"}})));
+}
+
+TEST(Resolution, WhatIsGivenHasTheSizeOfItsResolution) {
+  constexpr int width = 37, height = 21;
+  Frame frame = frame_from({.width = width,
+                            .height = height,
+                            .camera = camera_with_fov(width, height, 60),
+                            .planes = {{"depth", std::vector<float>(width * height, 4.0f)}}});
+  const Plan plan = make_plan({.outputs = {"hbao+"}, .only_filtered = true, .resolution = 4}, {"depth"}, "");
+  const Upsampling left = *upsampling_of(plan);
+  Device device;
+  for (const int smaller : {0, 1}) {
+    Plane given{"ao@4", {}};
+    given.channels.emplace_back(Layout(10 - smaller, 6), 0.25f);
+    frame.views[0].planes["ao@4"] = std::move(given);
+    if (smaller) {
+      EXPECT_NE(message_of([&] { run(left.plan, frame, device); }).find("'ao@4' is not the size"), std::string::npos);
+      continue;
+    }
+    const RunResult result = run(left.plan, frame, device);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        ASSERT_FLOAT_EQ(result.frame.views[0].find("ao")->channels[0].at(x, y), 0.25f) << x << " " << y;
   }
 }
 

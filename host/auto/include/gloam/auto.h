@@ -199,7 +199,7 @@ AutoResult compute_effects(AutoPlan& planned, const AutoSettings& settings, cons
 
 // --- In words.
 
-/// One line where a goal was missed; empty if it was not.
+/// One line where a goal was missed, or is best met by the colour alone; empty otherwise.
 std::string note_on_goal(const AutoResult& result, const Goal& goal);
 
 /// JSON as `gloam auto --json` writes it: "effects", "classify_ms", "glance_ms", "total_ms", "device"; with a goal also "chosen",

@@ -26,6 +26,9 @@ const std::vector<PlaneKind>& plane_kinds();
 /// technique needs no entry here.
 PlaneKind plane_kind(std::string_view name);
 
+/// 4 for "ao@4", a plane of every 4th pixel of every 4th row; 1 for one of all pixels.
+int resolution_in(std::string_view name);
+
 /// Layers of one meaning that a kernel reads as one argument. In a frame each layer is a plane of its own, of one component:
 /// "peel.00", "peel.01", ... A technique reads the stack: "peel".
 struct StackKind {
