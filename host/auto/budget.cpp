@@ -20,16 +20,11 @@ constexpr int most_rounds = 24;
 class Spending {
  public:
   Spending(std::vector<BudgetedEffect>& effects, const BudgetMeans& means, OptionSpeeds& speeds)
-      : effects_(effects),
-        means_(means),
-        speeds_(speeds),
-        looking_ms_(means.glance.ms() + means.probing_ms),
-        times_(effects.size()),
-        corrections_(effects.size(), 1) {}
+      : effects_(effects), means_(means), speeds_(speeds), times_(effects.size()), corrections_(effects.size(), 1) {}
 
   ChoiceProblem problem() const {
     const Glance& glance = means_.glance;
-    ChoiceProblem problem{.model = glance.model(), .looking_ms = looking_ms_};
+    ChoiceProblem problem{.model = glance.model(), .looking_ms = means_.looking_ms};
     problem.uses = [&glance](const std::vector<std::string>& made) { return glance.used(made); };
     for (size_t i = 0; i < effects_.size(); ++i) {
       problem.effects.emplace_back();
@@ -113,7 +108,6 @@ class Spending {
   std::vector<BudgetedEffect>& effects_;
   const BudgetMeans& means_;
   OptionSpeeds& speeds_;
-  double looking_ms_;
   std::vector<std::map<int, double>> times_;  ///< by effect, measured on the frame
   std::vector<double> corrections_;           ///< by effect: measured over expected
 };

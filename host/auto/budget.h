@@ -39,7 +39,7 @@ struct BudgetMeans {
   Device& device;
   const RunOptions& options;
   const Glance& glance;
-  double probing_ms = 0;                                 ///< device time of the probes for masks
+  double looking_ms = 0;                                 ///< device time of looking that counts
   bool always_masked = false;                            ///< a mask is used where there is one, even if it is slower
   std::function<void(int done, int of)> measuring = {};  ///< progress of the first measurement on a device
 };

@@ -69,18 +69,19 @@ std::vector<Plan> plans_of_glance(const std::vector<const Candidate*>& candidate
   return plans;
 }
 
-BudgetedEffect budgeted(const Candidate& candidate, const Outcome& outcome, bool with_mask, const Glance& glance,
-                        const EffectProbe& probe) {
+BudgetedEffect budgeted(const Candidate& candidate, const Outcome& outcome, const AutoSettings& settings,
+                        const Glance& glance, const EffectProbe& probe) {
   BudgetedEffect effect;
   effect.technique = candidate.technique;
   const PlanRequest& request = outcome.decision.request;
-  if (with_mask) {
+  if (settings.mask != MaskUse::never) {
     effect.mask = request.only;
     effect.elsewhere = request.elsewhere;
   }
-  effect.options = options_of(find_technique(request.outputs.front()), probe,
-                              {candidate.technique, preset_of_glance(*candidate.technique, probe.asked),
-                               common_planes(glance.parts()), scale_of_glance(probe.frame)});
+  const SeenEffect seen{candidate.technique, preset_of_glance(*candidate.technique, probe.asked),
+                        common_planes(glance.parts()), scale_of_glance(probe.frame)};
+  effect.options =
+      options_of(find_technique(request.outputs.front()), probe, settings.for_other_frames ? SeenEffect{} : seen);
   return effect;
 }
 
@@ -160,8 +161,7 @@ void spend_budget(const Candidates& candidates, const AutoSettings& settings, co
     Outcome& outcome = result.outcomes[i];
     probing_ms += outcome.decision.effect.classify_ms;
     if (!outcome.decision.effect.is_wanted) continue;
-    effects.push_back(budgeted(candidates.possible[i], outcome, settings.mask != MaskUse::never, glance,
-                               probe_for(candidates.possible[i])));
+    effects.push_back(budgeted(candidates.possible[i], outcome, settings, glance, probe_for(candidates.possible[i])));
     owners.push_back(&outcome);
   }
   const EffectProbe probe = probe_for(candidates.possible.front());
@@ -172,7 +172,7 @@ void spend_budget(const Candidates& candidates, const AutoSettings& settings, co
                           .device = probe.device,
                           .options = probe.options,
                           .glance = glance,
-                          .probing_ms = probing_ms,
+                          .looking_ms = settings.for_other_frames ? 0 : glance.ms() + probing_ms,
                           .always_masked = settings.mask == MaskUse::always,
                           .measuring = settings.measuring};
   result.spent = spend(effects, settings.goal, means, speeds);

@@ -1,12 +1,14 @@
 #include "shot/auto_step.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/lists.h"
 #include "gloam/frame_numbers.h"
 #include "gloam/margin.h"
 #include "gloam/option.h"
 #include "sequence/chunks.h"
+#include "shot/cuts.h"
 #include "shot/memory.h"
 
 namespace gloam {
@@ -47,26 +49,62 @@ std::vector<std::string> EffectTally::in_words() const {
   return lines;
 }
 
-void AutoStep::decide_on(AutoFrame& first) {
-  if (!computing_.goal && !looks_at_changes(first.candidates)) return;
+AutoFrame AutoStep::planned(FrameFiles files) const {
+  AutoFrame planned = planned_auto(std::move(files), settings_.asked, settings_.computing.purpose, settings_.unfit);
+  set_radius(planned, settings_.radius);
+  return planned;
+}
+
+AutoStep::Decided AutoStep::decided_on(AutoFrame& first, const std::string& what) {
+  Decided decided{settings_.computing, settings_.contents};
   const Frame frame = first.files.read(first.planes);
-  set_radius(first, settings_.radius);
-  const AutoResult result = compute_effects(first, computing_, frame, device_, settings_.options);
+  decided.computing.for_other_frames = true;
+  const AutoResult result = compute_effects(first, decided.computing, frame, device_, settings_.options);
   for (const std::string& sentence : result.notes) events_.note(sentence);
-  computing_.fixed = fixed_by(result);
+  decided.computing.fixed = fixed_by(result);
   std::vector<std::string> lines;
-  for (const auto& [technique, fixed] : *computing_.fixed) {
+  for (const auto& [technique, fixed] : *decided.computing.fixed) {
     const std::string& effect = find_technique(technique).effect.name;
-    lines.push_back(fixed.runs ? fmt::format("{}: {}, {} in all frames, as chosen on the first", effect,
-                                             fmt::join(fixed.request.outputs, " + "), fixed.setting)
-                               : fmt::format("{}: in no frame; {}", effect, fixed.why));
+    lines.push_back(fixed.runs ? fmt::format("{}: {}, {} in {}, as chosen on the first", effect,
+                                             fmt::join(fixed.request.outputs, " + "), fixed.setting, what)
+                               : fmt::format("{}: not in {}; {}", effect, what, fixed.why));
   }
-  if (const std::string missed = note_on_goal(result, computing_.goal); !missed.empty()) lines.push_back(missed);
-  computing_.goal = {};
+  if (const std::string missed = note_on_goal(result, settings_.computing.goal); !missed.empty())
+    lines.push_back(missed);
+  decided.computing.goal = {};
   for (const std::string& line : lines) events_.note(line);
   // Not of the contents: the times in it differ from run to run.
   if (result.spent && !result.spent->why.empty()) events_.note(result.spent->why);
-  contents_ += fmt::format("{}", fmt::join(lines, "; "));
+  decided.contents += fmt::format("{}", fmt::join(lines, "; "));
+  return decided;
+}
+
+void AutoStep::decide_on(AutoFrame& first) {
+  if (!settings_.computing.goal && !looks_at_changes(first.candidates)) return;
+  const std::vector<int> cuts = cuts_in(poses_of(files_), settings_.radius.value_or(0));
+  std::vector<int> starts = {std::numeric_limits<int>::min()};
+  starts.insert(starts.end(), cuts.begin(), cuts.end());
+  for (size_t i = 0; i < starts.size(); ++i) {
+    std::vector<int> numbers;
+    for (const SequenceFrame& frame : files_.frames())
+      if (frame.number >= starts[i] && (i + 1 == starts.size() || frame.number < starts[i + 1]))
+        numbers.push_back(frame.number);
+    const std::string what = cuts.empty() ? "all frames" : fmt::format("frames {}", frames_as_flag(numbers));
+    if (i == 0) {
+      set_radius(first, settings_.radius);
+      decided_[starts[i]] = decided_on(first, what);
+      continue;
+    }
+    events_.note(fmt::format("frame {}: the camera jumps, so that what is computed is chosen anew", starts[i]));
+    try {
+      const auto at = [&](const SequenceFrame& frame) { return frame.number == starts[i]; };
+      AutoFrame next = planned(files_.open(*std::find_if(files_.frames().begin(), files_.frames().end(), at)));
+      decided_[starts[i]] = decided_on(next, what);
+    } catch (const Error& error) {
+      events_.note(fmt::format("frame {}: cannot be chosen for, so that what was chosen before it stays: {}", starts[i],
+                               error.what()));
+    }
+  }
 }
 
 std::vector<ShotOutput> AutoStep::outputs() const {
@@ -98,7 +136,8 @@ class AutoStep::Work : public FrameWork {
 
   void compute() override {
     const AutoShotSettings& settings = step_.settings_;
-    AutoResult result = compute_effects(*planned_, step_.computing_, frame_, step_.device_, settings.options);
+    AutoResult result = compute_effects(*planned_, step_.decided_for(turn.frame.number).computing, frame_,
+                                        step_.device_, settings.options);
     for (const std::string& sentence : result.notes) step_.events_.note(sentence);
     result_ = std::move(result.frame);
     compose();
@@ -154,9 +193,8 @@ class AutoStep::Work : public FrameWork {
 };
 
 std::unique_ptr<FrameWork> AutoStep::begin(const FrameTurn& turn, FrameFiles files) {
-  AutoFrame planned = planned_auto(std::move(files), settings_.asked, computing_.purpose, settings_.unfit);
+  AutoFrame planned = this->planned(std::move(files));
   if (settings_.output) check_has_depth(planned, settings_.output->path_of(turn.frame.number).string());
-  set_radius(planned, settings_.radius);
   auto source = open_composite(settings_.composite, files_.paths_of(turn.frame), files_.options_for(turn.frame));
   leave_out(source, settings_.unfit);
   return std::make_unique<Work>(*this, std::move(planned), std::move(source));

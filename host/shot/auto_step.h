@@ -1,6 +1,8 @@
 // Effects that the frames of a shot call for.
 #pragma once
 
+#include <iterator>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -56,17 +58,18 @@ class AutoStep : public FrameStep {
       : files_(files),
         settings_(settings),
         events_(events),
-        computing_(settings.computing),
-        contents_(settings.contents),
+        decided_{{std::numeric_limits<int>::min(), {settings.computing, settings.contents}}},
         device_(device),
         notes_(files, events) {}
 
-  /// Decides on the first frame what all frames take over: nothing comes and goes by what it changes, and a budget is spent once. What
-  /// was decided tells results by other decisions apart.
+  /// Decides on the first frame what all frames take over, up to a cut, after which the next frame decides: nothing comes and goes by what it
+  /// changes, and a budget is spent once. What was decided tells results by other decisions apart.
   void decide_on(AutoFrame& first);
 
   std::vector<ShotOutput> outputs() const override;
-  std::string settings_of(const FrameFiles& /*files*/) override { return contents_; }
+  std::string settings_of(const SequenceFrame& frame, const FrameFiles& /*files*/) override {
+    return decided_for(frame.number).contents;
+  }
   std::unique_ptr<FrameWork> begin(const FrameTurn& turn, FrameFiles files) override;
 
   const EffectTally& tally() const { return tally_; }
@@ -74,14 +77,23 @@ class AutoStep : public FrameStep {
  private:
   class Work;
 
+  /// What holds from a frame on.
+  struct Decided {
+    AutoSettings computing;
+    std::string contents;
+  };
+  const Decided& decided_for(int frame) const { return std::prev(decided_.upper_bound(frame))->second; }
+  /// `what`: the frames that it holds for, in words.
+  Decided decided_on(AutoFrame& frame, const std::string& what);
+  AutoFrame planned(FrameFiles files) const;
+
   /// What a frame shows to be unfit is used all the same if it was sound in the first.
   void add_notes(const FrameTurn& turn, std::vector<std::string> notes);
 
   const SequenceFiles& files_;
   const AutoShotSettings& settings_;
   ShotEvents& events_;
-  AutoSettings computing_;
-  std::string contents_;
+  std::map<int, Decided> decided_;  ///< by the first frame; never empty
   Device& device_;
   ShotNotes notes_;
   EffectTally tally_;

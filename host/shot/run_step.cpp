@@ -171,7 +171,9 @@ std::vector<ShotOutput> RunStep::outputs() const {
   return outputs;
 }
 
-std::string RunStep::settings_of(const FrameFiles& /*files*/) { return settings_.contents; }
+std::string RunStep::settings_of(const SequenceFrame& /*frame*/, const FrameFiles& /*files*/) {
+  return settings_.contents;
+}
 
 std::unique_ptr<FrameWork> RunStep::begin(const FrameTurn& turn, FrameFiles files) {
   PlannedFrame planned = planned_frame(std::move(files), settings_.request, settings_.carried.depth);

@@ -44,7 +44,7 @@ class RunStep : public FrameStep {
   void start(std::function<std::shared_ptr<Device>()> open);
 
   std::vector<ShotOutput> outputs() const override;
-  std::string settings_of(const FrameFiles& files) override;
+  std::string settings_of(const SequenceFrame& frame, const FrameFiles& files) override;
   void get_ready() override {
     device_ = starting_.get();
     ready_device_ = device_.get();

@@ -56,8 +56,8 @@ FrameTurn ShotRun::turn_at(size_t i) const {
   return {i, frames[turn.frame], i > 0 ? frames[turns_[i - 1].frame].number : 0, turn.begins, turn.is_written};
 }
 
-FrameMaking ShotRun::making_of(const FrameFiles& files) {
-  return {settings_.version, step_.settings_of(files), identity_of(files)};
+FrameMaking ShotRun::making_of(const SequenceFrame& frame, const FrameFiles& files) {
+  return {settings_.version, step_.settings_of(frame, files), identity_of(files)};
 }
 
 /// Why a frame is written, told of those whose file is there; empty if it is left alone.
@@ -89,7 +89,7 @@ std::vector<Turn> ShotRun::turns() {
     const SequenceFrame& frame = files_.frames()[turn.frame];
     if (turn.begins) history.clear();
     try {
-      FrameMaking making = making_of(files_.open(frame));
+      FrameMaking making = making_of(frame, files_.open(frame));
       history = add_history_to(making, history);
       if (turn.is_written) is_whole[turn.frame] = why_again(frame.number, making).empty();
     } catch (const Error&) {
@@ -111,7 +111,7 @@ std::unique_ptr<FrameWork> ShotRun::begin(size_t i) {
   const FrameTurn turn = turn_at(i);
   FrameFiles files = files_.open(turn.frame);
   FrameMaking making;
-  if (!outputs_.empty()) making = making_of(files);
+  if (!outputs_.empty()) making = making_of(turn.frame, files);
   // Of frames that go on over time, those to leave alone have been left out.
   if (settings_.resumes && !settings_.goes_on && why_again(turn.frame.number, making).empty()) {
     const std::lock_guard lock(telling_);

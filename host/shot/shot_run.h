@@ -57,7 +57,7 @@ class FrameStep {
   virtual ~FrameStep() = default;
   virtual std::vector<ShotOutput> outputs() const { return {}; }
   /// What decides the contents of a frame's file besides the version and the input, in words.
-  virtual std::string settings_of(const FrameFiles& /*files*/) { return ""; }
+  virtual std::string settings_of(const SequenceFrame& /*frame*/, const FrameFiles& /*files*/) { return ""; }
   /// Called once before the first frame is computed. What it throws ends the run: all frames would fail for it.
   virtual void get_ready() {}
   /// Plans a frame that is open; nothing is decoded yet. Several at once.
@@ -92,7 +92,7 @@ class ShotRun {
     StepTimes times;
   };
   FrameTurn turn_at(size_t i) const;
-  FrameMaking making_of(const FrameFiles& files);
+  FrameMaking making_of(const SequenceFrame& frame, const FrameFiles& files);
   std::vector<Turn> turns();
   std::string why_again(int frame, const FrameMaking& making);
   std::unique_ptr<FrameWork> begin(size_t i);

@@ -207,13 +207,14 @@ TEST_F(AutoBudget, TwoEyesAreWeighedTogether) {
 // The first frame decides for all, and a frame alone with these settings has the same bits.
 TEST_F(AutoBudget, AShotTakesOverWhatTheFirstFrameChooses) {
   ASSERT_EQ(
-      gloam({"capture", "gallery", "-o", path("s.####.exr"), "--shot", "walk", "--frames", "1-3", "--size", "96x54"})
+      gloam({"capture", "gallery", "-o", path("s.####.exr"), "--shot", "walk", "--frames", "1-3", "--size", "192x108"})
           .status,
       0);
   const Result result = gloam({"auto", path("s.####.exr"), "-o", path("o.####.exr"), "--budget", "0.001fps", "--radius",
                                "0.5", "--preset", "low", "--resolution", "half", "--float"});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_NE(result.err.find("low, half in all frames, as chosen on the first"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("from the look"), std::string::npos) << result.err;  // the other frames are not looked at
   int compared = 0;
   for (const auto& [technique, plane] :
        std::map<std::string, std::string>{{"evidence", "ao"}, {"indirect", "indirect"}, {"sssr", "reflection"}}) {
@@ -230,6 +231,35 @@ TEST_F(AutoBudget, AShotTakesOverWhatTheFirstFrameChooses) {
     ++compared;
   }
   EXPECT_GE(compared, 1);
+}
+
+TEST_F(AutoBudget, AfterACutTheNextFrameChooses) {
+  ASSERT_EQ(
+      gloam({"capture", "gallery", "-o", path("s.####.exr"), "--shot", "walk", "--frames", "1-3", "--size", "96x54"})
+          .status,
+      0);
+  for (const int number : {4, 5})
+    ASSERT_EQ(gloam({"capture", "gallery", "-o", path(fmt::format("s.{:04}.exr", number)), "--size", "96x54", "--eye",
+                     fmt::format("{},1.6,-3", 1.5 + 0.01 * number), "--target", "0,1,0"})
+                  .status,
+              0);
+  const Arguments words = {"auto", path("s.####.exr"), "-o",  path("o.####.exr"), "--budget", "0.001fps", "--radius",
+                           "0.5",  "--preset",         "low", "--resolution",     "half"};
+  const Result result = gloam(words);
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.err.find("note: frame 4: the camera jumps, so that what is computed is chosen anew\n"),
+            std::string::npos)
+      << result.err;
+  EXPECT_NE(result.err.find("low, half in frames 1-3, as chosen on the first"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("frames 4-5"), std::string::npos) << result.err;
+  // What is there already was made by the choice that holds for it.
+  Arguments again = words;
+  again.push_back("--resume");
+  fs::remove(path("o.0002.exr"));
+  const Result resumed = gloam(again);
+  ASSERT_EQ(resumed.status, 0) << resumed.err;
+  EXPECT_NE(resumed.err.find("reflections: wanted in 1 of 1 frames computed: sssr in 2\n"), std::string::npos)
+      << resumed.err;
 }
 
 TEST_F(AutoBudget, AnEnvironmentTakesThePlaceOfAmbientLight) {

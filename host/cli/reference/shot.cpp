@@ -43,7 +43,7 @@ class TruthStep : public FrameStep {
 
   std::vector<ShotOutput> outputs() const override { return {{output_, ""}}; }
 
-  std::string settings_of(const FrameFiles& files) override {
+  std::string settings_of(const SequenceFrame& /*frame*/, const FrameFiles& files) override {
     scene_.load_for(files.files().front());
     std::string how = fmt::format("reference {}{}; {}", flags_.request.what, flags_.given, scene_.identity());
     if (!job_.identity.empty()) how += "; " + job_.identity;

@@ -140,6 +140,8 @@ struct AutoSettings {
   /// If set, nothing is weighed on the frame: effects that are not among these are decided by their masks alone.
   std::optional<FixedEffects> fixed = {};
   std::function<void(int done, int of)> measuring = {};  ///< progress of the table of speeds, made once on a device
+  /// What is chosen is for frames that are not looked at: the time of looking does not count, and nothing is taken from the look.
+  bool for_other_frames = false;
 };
 
 /// What gloam auto makes of a frame.
