@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""What `gloam auto --budget` chooses against the best fixed settings of equal time: the table of docs/choosing.md.
+"""What `gloam auto --budget` and `--error` choose against the best fixed settings of equal time or error: the tables of docs/choosing.md.
 
 python3 bench/budget_errors.py FOLDER [GLOAM [SIZE [SAMPLES [SCENE|FRAME ...]]]]    by default build/gloam, 480x270, 256 rays, eight scenes
 python3 bench/budget_errors.py FOLDER --without TABLES [GLOAM ...]                  of each scene by TABLES/without-SCENE.json (bench/picture_fit.py)
 
 Every preset and resolution of every effect is run once for itself. Pictures of all combinations are composed from these planes, and the nearest to
 the picture of traced planes within the budget is the best fixed setting: found by brute force. Budgets are shares of the time of everything
-everywhere at the preset medium. Needs the Python module (PYTHONPATH=build/python). RMSE over the surfaces of a frame.
+everywhere at the preset medium; errors lie between those of the colour alone and of the best combination. Needs the Python module (PYTHONPATH=build/python). RMSE over the surfaces of a frame.
 """
 import itertools
 import json
@@ -26,6 +26,8 @@ PRESETS, RESOLUTIONS = ["low", "medium", "high", "ultra"], ["full", "half", "qua
 EFFECTS = {"ambient": [("evidence", "ao"), ("multi-bounce", "bounces")], "indirect": [("indirect", "indirect")],
            "reflection": [("sssr", "reflection")]}
 BUDGETS = [0.25, 0.5, 1]
+# Shares of the way from the error of the colour alone to the least that any combination has.
+GAINS = [0.25, 0.5, 0.75]
 
 
 class Scene:
@@ -87,8 +89,8 @@ class Scene:
                     options[effect].append((f"{technique}, {preset}, {resolution}", ms, {plane: values}))
         return options
 
-    def best_fixed(self, options, budgets):
-        """For each time, of all combinations within it the one whose picture has the least error: (error, time, settings).
+    def combinations(self, options):
+        """Of all combinations of options: (error, time, settings).
 
         A picture is a sum of one term per effect, so the squared error of a combination is a sum of inner products of terms."""
         listed = [(number, *option) for number, of_effect in enumerate(options.values()) for option in of_effect]
@@ -96,7 +98,7 @@ class Scene:
                             [(self.color - self.picture_of_truth).ravel()])
         products = terms @ terms.T
         of_effects = [[k for k, option in enumerate(listed) if option[0] == number] for number in range(len(options))]
-        best = [None] * len(budgets)
+        found = []
         for combination in itertools.product(*of_effects):
             planes = {plane for k in combination for plane in listed[k][3]}
             if {"bounces", "indirect"} <= planes:
@@ -104,10 +106,8 @@ class Scene:
             time = sum(listed[k][2] for k in combination)
             chosen = [*combination, len(listed)]
             error = math.sqrt(max(0, products[numpy.ix_(chosen, chosen)].sum()) / terms.shape[1])
-            for place, budget in enumerate(budgets):
-                if time <= budget and (best[place] is None or error < best[place][0]):
-                    best[place] = error, time, "; ".join(listed[k][1] for k in combination)
-        return best
+            found.append((error, time, "; ".join(listed[k][1] for k in combination)))
+        return found
 
     def automatic(self, *goal):
         """gloam auto: error of its picture, and what it tells."""
@@ -125,27 +125,51 @@ def told_in_words(told):
     return "; ".join(f"{' + '.join(c['outputs'])}, {c['preset']}, {RESOLUTIONS[c['resolution'] // 2]}" for c in told["chosen"]) or "nothing"
 
 
-def print_budgets(scenes, tables):
+def rows_of_budgets(scene, options):
+    """A row for no budget, and one for each."""
+    everything = [option for effect, (technique, _) in zip(options, (t[0] for t in EFFECTS.values())) for option in options[effect]
+                  if option[0] == f"{technique}, medium, full"]
+    all_ms = sum(option[1] for option in everything)
+    all_error = scene.error({plane: values for option in everything for plane, values in option[2].items()})
+    error, told = scene.automatic("--repeat", "7")
+    yield (f"| {scene.name} | {all_ms:.1f} | {all_error:.4f} | none | {error:.4f} | {told['total_ms']:.1f} | "
+           f"{told['classify_ms'] + told['glance_ms']:.1f} | | | | | {told_in_words(told)}, {100 * (1 - told['total_ms'] / all_ms):.0f} % saved |")
+    combinations = scene.combinations(options)
+    for budget in (share * all_ms for share in BUDGETS):
+        best = min(c for c in combinations if c[1] <= budget)
+        error, told = scene.automatic("--budget", f"{budget:.4f}ms")
+        yield (f"| {scene.name} | {all_ms:.1f} | {all_error:.4f} | {budget:.1f} | {error:.4f} | {told['total_ms']:.1f} | "
+               f"{told['classify_ms'] + told['glance_ms']:.1f} | {told['expected_error']:.4f} | {best[0]:.4f} | {best[1]:.1f} | "
+               f"{100 * (error / best[0] - 1):.0f} % | {told_in_words(told)} (best: {best[2]}) |")
+
+
+def rows_of_errors(scene, options):
+    """A row for each error that is asked for."""
+    combinations = scene.combinations(options)
+    alone, least = scene.error({}), min(combinations)[0]
+    for goal in (alone + gain * (least - alone) for gain in GAINS):
+        fastest = min(c[1::-1] + c[2:] for c in combinations if c[0] <= goal)
+        error, told = scene.automatic("--error", f"{goal:.6f}")
+        says = "yes" if told["goal_met"] else "no"
+        yield (f"| {scene.name} | {goal:.4f} | {says} | {told['expected_error']:.4f} | {error:.4f} | {'yes' if error <= goal else 'no'} | "
+               f"{told['total_ms']:.1f} | {told['classify_ms'] + told['glance_ms']:.1f} | {fastest[0]:.1f} | "
+               f"{100 * (told['total_ms'] / max(fastest[0], 1e-3) - 1):.0f} % | {told_in_words(told)} (fastest: {fastest[2]}) |")
+
+
+def print_tables(scenes, tables):
+    of_errors = []
     print("| frame | everything, ms | error | budget, ms | auto: error | ms | looking, ms | expected | best fixed: error | ms | more than best | choice |")
     print("|---|" + "---:|" * 10 + "---|")
     for scene in scenes:
         options = scene.options()
         if tables:
             os.environ["GLOAM_EFFECT_ERRORS"] = str(tables / f"without-{scene.name}.json")
-        everything = [option for effect, (technique, _) in zip(options, (t[0] for t in EFFECTS.values())) for option in options[effect]
-                      if option[0] == f"{technique}, medium, full"]
-        all_ms = sum(option[1] for option in everything)
-        all_error = scene.error({plane: values for option in everything for plane, values in option[2].items()})
-        error, told = scene.automatic("--repeat", "7")
-        print(f"| {scene.name} | {all_ms:.1f} | {all_error:.4f} | none | {error:.4f} | {told['total_ms']:.1f} | "
-              f"{told['classify_ms'] + told['glance_ms']:.1f} | | | | | {told_in_words(told)}, {100 * (1 - told['total_ms'] / all_ms):.0f} % saved |",
-              flush=True)
-        budgets = [share * all_ms for share in BUDGETS]
-        for budget, best in zip(budgets, scene.best_fixed(options, budgets)):
-            error, told = scene.automatic("--budget", f"{budget:.4f}ms")
-            print(f"| {scene.name} | {all_ms:.1f} | {all_error:.4f} | {budget:.1f} | {error:.4f} | {told['total_ms']:.1f} | "
-                  f"{told['classify_ms'] + told['glance_ms']:.1f} | {told['expected_error']:.4f} | {best[0]:.4f} | {best[1]:.1f} | {100 * (error / best[0] - 1):.0f} % | "
-                  f"{told_in_words(told)} (best: {best[2]}) |", flush=True)
+        for row in rows_of_budgets(scene, options):
+            print(row, flush=True)
+        of_errors += rows_of_errors(scene, options)
+    print("\n| frame | error asked for | said to be reached | expected | error | reached | ms | looking, ms | fastest fixed, ms | more | choice |")
+    print("|---|---:|---|---:|---:|---|---:|---:|---:|---:|---|")
+    print("\n".join(of_errors))
 
 
 def main(folder, *arguments):
@@ -154,7 +178,7 @@ def main(folder, *arguments):
     gloam_path, size, samples, *names = (*arguments, *("build/gloam", "480x270", "256")[len(arguments):])
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    print_budgets((Scene(gloam_path, folder, name, size, samples) for name in names or SCENES), tables)
+    print_tables((Scene(gloam_path, folder, name, size, samples) for name in names or SCENES), tables)
 
 
 if __name__ == "__main__":

@@ -6,17 +6,33 @@ from recipes import SCENES, rows_printed
 PAGE = "docs/choosing.md"
 OF_BUDGETS = ("gallery", "courtyard", "lounge", "temple", "corridor", "colonnade", "banquet", "statue")
 INTERVALS = (MACHINE, ERROR, MACHINE, MACHINE, MACHINE, CHANGING, CHANGING, CHANGING)
+OF_ERRORS = (CHANGING, CHANGING, CHANGING, CHANGING, MACHINE, MACHINE, MACHINE)
+
+
+def rows_of(lab, scene):
+    """What is printed of a scene: without a budget, with each of three, and with each of three errors."""
+    folder, tables = lab.folder_for("budgets"), lab.folder_for("picture-fit")
+    lab.program("picture_fit.py", tables, "--each", lab.gloam)
+    printed = rows_printed(lab.program("budget_errors.py", folder, "--without", tables, lab.gloam, "480x270", 128, scene))
+    return [cells for name, cells in printed if name == scene]
 
 
 @table(PAGE, "How good the choice is", minutes=150, within=lambda row, column: INTERVALS[min(column, 7)])
 def budgets(lab):
-    folder, tables, rows = lab.folder_for("budgets"), lab.folder_for("picture-fit"), []
-    lab.program("picture_fit.py", tables, "--each", lab.gloam)
+    rows = []
     for scene in OF_BUDGETS:
-        printed = rows_printed(lab.program("budget_errors.py", folder, "--without", tables, lab.gloam, "480x270", 128, scene))
-        for _, cells in [row for row in printed if row[0] == scene][1:]:  # the first is without a budget
+        for cells in rows_of(lab, scene)[1:4]:
             everything, its_error, budget, error, ms, looking, expected, best = (cell[0] for cell in cells[:8])
             rows.append([everything, its_error, budget, ms, looking, error, expected, best, None])
+    return rows
+
+
+@table(PAGE, "How good the choice is", minutes=1, within=lambda row, column: OF_ERRORS[column])
+def errors(lab):
+    rows = []
+    for scene in OF_BUDGETS:
+        for goal, _, expected, error, _, ms, _, fastest, *_ in rows_of(lab, scene)[4:7]:
+            rows.append([goal[0], expected[0], error[0], None, ms[0], fastest[0], None])
     return rows
 
 

@@ -114,6 +114,7 @@ Frame show_changes(const Frame& frame, const Glance& glance, const ComposeOption
   for (const std::string& plane : common_planes(result.frame))
     if (contains(part_planes(), plane)) made.push_back(plane);
   Frame picture = composed(frame, result.frame, made, how);
+  for (View& view : picture.views) std::erase_if(view.planes, [](const auto& plane) { return plane.first != "color"; });
   for (Outcome& outcome : result.outcomes) {
     const Technique& technique = *outcome.decision.effect.technique;
     if (!contains(glance.planes(), technique.effect.changes)) continue;

@@ -62,20 +62,17 @@ AutoStep::Decided AutoStep::decided_on(AutoFrame& first, const std::string& what
   const AutoResult result = compute_effects(first, decided.computing, frame, device_, settings_.options);
   for (const std::string& sentence : result.notes) events_.note(sentence);
   decided.computing.fixed = fixed_by(result);
-  std::vector<std::string> lines;
   for (const auto& [technique, fixed] : *decided.computing.fixed) {
     const std::string& effect = find_technique(technique).effect.name;
-    lines.push_back(fixed.runs ? fmt::format("{}: {}, {} in {}, as chosen on the first", effect,
-                                             fmt::join(fixed.request.outputs, " + "), fixed.setting, what)
-                               : fmt::format("{}: not in {}; {}", effect, what, fixed.why));
+    const std::string runs = fmt::format("{}, {}", fmt::join(fixed.request.outputs, " + "), fixed.setting);
+    events_.note(fixed.runs ? fmt::format("{}: {} in {}, as chosen on the first", effect, runs, what)
+                            : fmt::format("{}: not in {}; {}", effect, what, fixed.why));
+    // Neither the times nor the frames, which differ from run to run.
+    decided.contents += fmt::format("; {}: {}", effect, fixed.runs ? runs : "none");
   }
-  if (const std::string missed = note_on_goal(result, settings_.computing.goal); !missed.empty())
-    lines.push_back(missed);
-  decided.computing.goal = {};
-  for (const std::string& line : lines) events_.note(line);
-  // Not of the contents: the times in it differ from run to run.
+  if (const std::string missed = note_on_goal(result, settings_.computing.goal); !missed.empty()) events_.note(missed);
   if (result.spent && !result.spent->why.empty()) events_.note(result.spent->why);
-  decided.contents += fmt::format("{}", fmt::join(lines, "; "));
+  decided.computing.goal = {};
   return decided;
 }
 
