@@ -6,7 +6,6 @@ from recipes import SCENES, rows_printed
 PAGE = "docs/choosing.md"
 OF_BUDGETS = ("gallery", "courtyard", "lounge", "temple", "corridor", "colonnade", "banquet", "statue")
 INTERVALS = (MACHINE, ERROR, MACHINE, MACHINE, MACHINE, CHANGING, CHANGING, CHANGING)
-OF_ERRORS = (CHANGING, CHANGING, CHANGING, CHANGING, MACHINE, MACHINE, MACHINE)
 
 
 def rows_of(lab, scene):
@@ -24,15 +23,6 @@ def budgets(lab):
         for cells in rows_of(lab, scene)[1:4]:
             everything, its_error, budget, error, ms, looking, expected, best = (cell[0] for cell in cells[:8])
             rows.append([everything, its_error, budget, ms, looking, error, expected, best, None])
-    return rows
-
-
-@table(PAGE, "How good the choice is", minutes=1, within=lambda row, column: OF_ERRORS[column])
-def errors(lab):
-    rows = []
-    for scene in OF_BUDGETS:
-        for goal, _, expected, error, _, ms, _, fastest, *_ in rows_of(lab, scene)[4:7]:
-            rows.append([goal[0], expected[0], error[0], None, ms[0], fastest[0], None])
     return rows
 
 

@@ -135,6 +135,18 @@ void set_radius(AutoPlan& planned, std::optional<double> radius) {
   for (Candidate& candidate : planned.candidates.possible) candidate.asked.radius = radius;
 }
 
+namespace {
+
+/// Of copies of the frame's planes that composing reads, and of those that effects add.
+unsigned long long bytes_to_compose(const AutoPlan& planned) {
+  size_t components = 0;
+  for (const std::vector<std::string>& planes : {planes_to_compose(), part_planes()})
+    for (const std::string& plane : planes) components += plane_kind(plane).components.size();
+  return components * Layout(planned.facts.width, planned.facts.height).bytes() * planned.facts.views;
+}
+
+}  // namespace
+
 // Results of each effect stay in memory, and its masked results while it runs without the mask.
 unsigned long long bytes_beside_frame(const AutoPlan& planned, bool shares_memory) {
   const Layout layout(planned.facts.width, planned.facts.height);
@@ -144,6 +156,8 @@ unsigned long long bytes_beside_frame(const AutoPlan& planned, bool shares_memor
       most = std::max(most, bytes_beside_frame(plan, layout, planned.facts.views, false) +
                                 bytes_beside_frame(plan, layout, planned.facts.views, shares_memory));
   }
+  // Once all has run, the picture of all is composed, and for each effect the picture without it: of copies of what composing reads.
+  if (planned.explains && contains(planned.facts.planes, "color")) most = std::max(most, 2 * bytes_to_compose(planned));
   return bytes_of_results(planned) + most;
 }
 

@@ -160,6 +160,7 @@ void plan_effects(AutoPlan& planned, const PlanRequest& asked, const AutoPurpose
   const std::vector<std::string> available = fit_planes(facts.planes, planned.unfit);
   planned.candidates = candidates_for(asked, facts, purpose.composing, planned.unfit);
   planned.plans.clear();
+  planned.explains = purpose.explains;
   planned.planes = {"depth"};
   for (const Candidate& candidate : planned.candidates.possible) {
     planned.plans.push_back(plans_of_effect(*candidate.technique, candidate.asked, available, facts.holds));

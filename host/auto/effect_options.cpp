@@ -58,7 +58,12 @@ bool is_as_seen(const EffectOption& option, const Technique& technique, const Se
   if (seen.step == 1 || !request.adaptive.empty()) return false;
   const Plan plan = make_plan(request, probe.available, probe.holds);
   const auto is_seen = [&](const std::string& plane) { return contains(seen.planes, plane); };
-  return std::all_of(plan.outputs.begin(), plan.outputs.end(), is_seen) && upsampling_of(plan);
+  // What is made of all pixels, such as normals of depth, differs from what the look makes of its few.
+  const auto is_of_few = [](const PlannedPass& planned) {
+    return planned.technique == &resampling() || planned.scale > 1;
+  };
+  return std::all_of(plan.outputs.begin(), plan.outputs.end(), is_seen) &&
+         std::all_of(plan.passes.begin(), plan.passes.end(), is_of_few) && upsampling_of(plan);
 }
 
 }  // namespace

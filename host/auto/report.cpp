@@ -150,10 +150,9 @@ std::string note_on_goal(const AutoResult& result, const Goal& goal) {
   if (goal.error)
     return fmt::format("{}: no choice is expected to reach it; the nearest, {:.4f}, was taken", in_words(goal),
                        result.expected.value_or(ExpectedError{}).error);
-  return fmt::format(
-      "{}: nothing fits, so all effects were left out; looking takes {:.2f} ms, and with the cheapest, {}, it is "
-      "{:.2f} ms",
-      in_words(goal), spent.glance_ms, spent.cheapest, spent.cheapest_ms);
+  const std::string looking = spent.glance_ms > 0 ? fmt::format("looking takes {:.2f} ms, and ", spent.glance_ms) : "";
+  return fmt::format("{}: nothing fits, so all effects were left out; {}with the cheapest, {}, it is {:.2f} ms",
+                     in_words(goal), looking, spent.cheapest, spent.cheapest_ms);
 }
 
 std::string json_of(const AutoResult& result, const Goal& goal, const DeviceInfo& device) {

@@ -80,8 +80,8 @@ BudgetedEffect budgeted(const Candidate& candidate, const Outcome& outcome, cons
   }
   const SeenEffect seen{candidate.technique, preset_of_glance(*candidate.technique, probe.asked),
                         common_planes(glance.parts()), scale_of_glance(probe.frame)};
-  effect.options =
-      options_of(find_technique(request.outputs.front()), probe, settings.for_other_frames ? SeenEffect{} : seen);
+  const bool is_taken = !settings.for_other_frames && settings.mask != MaskUse::always;
+  effect.options = options_of(find_technique(request.outputs.front()), probe, is_taken ? seen : SeenEffect{});
   return effect;
 }
 

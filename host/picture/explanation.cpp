@@ -151,7 +151,8 @@ Panel panel_of_effect(const Explanation& e, const PanelGround& ground, double la
 /// What belongs to an effect besides its own panel.
 std::vector<Panel> pictures_of(const Explanation& e) {
   if (!e.part) return {{}, {}};
-  const std::string every = e.part->step > 1 ? fmt::format("every {}th pixel, as the look saw it", e.part->step) : "";
+  const int step = e.part->step;
+  const std::string every = step > 1 ? fmt::format("one of {0} x {0} pixels, as the look saw it", step) : "";
   return {panel_of_plane("the outlined part without " + e.effect, every, e.part->without),
           panel_of_plane("the same part with it", every, e.part->with)};
 }

@@ -49,6 +49,19 @@ std::vector<std::string> EffectTally::in_words() const {
   return lines;
 }
 
+namespace {
+
+/// The radius that was asked for; none: that of the shot is used.
+std::optional<double> radius_asked_for(const AutoFrame& frame) {
+  for (size_t i = 0; i < frame.plans.size(); ++i) {
+    const auto radius = radius_of(frame.plans[i].front(), frame.candidates.possible[i].asked, RadiusSource::frame);
+    if (radius && radius->from == RadiusSource::flag) return radius->value;
+  }
+  return {};
+}
+
+}  // namespace
+
 AutoFrame AutoStep::planned(FrameFiles files) const {
   AutoFrame planned = planned_auto(std::move(files), settings_.asked, settings_.computing.purpose, settings_.unfit);
   set_radius(planned, settings_.radius);
@@ -65,7 +78,7 @@ AutoStep::Decided AutoStep::decided_on(AutoFrame& first, const std::string& what
   for (const auto& [technique, fixed] : *decided.computing.fixed) {
     const std::string& effect = find_technique(technique).effect.name;
     const std::string runs = fmt::format("{}, {}", fmt::join(fixed.request.outputs, " + "), fixed.setting);
-    events_.note(fixed.runs ? fmt::format("{}: {} in {}, as chosen on the first", effect, runs, what)
+    events_.note(fixed.runs ? fmt::format("{}: {} in {}, as chosen on the first of them", effect, runs, what)
                             : fmt::format("{}: not in {}; {}", effect, what, fixed.why));
     // Neither the times nor the frames, which differ from run to run.
     decided.contents += fmt::format("; {}: {}", effect, fixed.runs ? runs : "none");
@@ -78,7 +91,9 @@ AutoStep::Decided AutoStep::decided_on(AutoFrame& first, const std::string& what
 
 void AutoStep::decide_on(AutoFrame& first) {
   if (!settings_.computing.goal && !looks_at_changes(first.candidates)) return;
-  const std::vector<int> cuts = cuts_in(poses_of(files_), settings_.radius.value_or(0));
+  set_radius(first, settings_.radius);
+  const double radius = radius_asked_for(first).value_or(settings_.radius.value_or(0));
+  const std::vector<int> cuts = cuts_in(poses_of(files_), radius);
   std::vector<int> starts = {std::numeric_limits<int>::min()};
   starts.insert(starts.end(), cuts.begin(), cuts.end());
   for (size_t i = 0; i < starts.size(); ++i) {
@@ -88,7 +103,6 @@ void AutoStep::decide_on(AutoFrame& first) {
         numbers.push_back(frame.number);
     const std::string what = cuts.empty() ? "all frames" : fmt::format("frames {}", frames_as_flag(numbers));
     if (i == 0) {
-      set_radius(first, settings_.radius);
       decided_[starts[i]] = decided_on(first, what);
       continue;
     }
@@ -96,6 +110,7 @@ void AutoStep::decide_on(AutoFrame& first) {
     try {
       const auto at = [&](const SequenceFrame& frame) { return frame.number == starts[i]; };
       AutoFrame next = planned(files_.open(*std::find_if(files_.frames().begin(), files_.frames().end(), at)));
+      check_goal(settings_.computing.goal, next);
       decided_[starts[i]] = decided_on(next, what);
     } catch (const Error& error) {
       events_.note(fmt::format("frame {}: cannot be chosen for, so that what was chosen before it stays: {}", starts[i],

@@ -10,13 +10,16 @@
 namespace gloam {
 namespace {
 
-/// A cut is this many times as far as the steps beside it, at least.
+/// A cut is this many times as far per frame as what is usual beside it, at least.
 constexpr double least_ratio = 5;
 constexpr double least_turn = 20 * std::numbers::pi / 180;
+/// Steps on either side that tell what is usual there.
+constexpr size_t steps_beside = 4;
 
-/// Of one frame to the next, per frame number.
+/// From one frame to the next: what is usual is compared per frame, as frames may be left out.
 struct Step {
-  double distance = 0, angle = 0;
+  int to = 0;  ///< the frame
+  double distance = 0, angle = 0, frames = 1;
 };
 
 double angle_between(const glm::dmat3& a, const glm::dmat3& b) {
@@ -24,37 +27,50 @@ double angle_between(const glm::dmat3& a, const glm::dmat3& b) {
   return std::acos(std::clamp((turn[0][0] + turn[1][1] + turn[2][2] - 1) / 2, -1.0, 1.0));
 }
 
-std::optional<Step> step_to(const std::vector<FramePose>& poses, size_t i) {
-  if (i == 0 || i >= poses.size() || !poses[i].pose || !poses[i - 1].pose) return {};
-  const Pose &before = *poses[i - 1].pose, &now = *poses[i].pose;
-  const double frames = std::max(1, poses[i].frame - poses[i - 1].frame);
-  return Step{glm::distance(before.position, now.position) / frames,
-              angle_between(before.world_to_view, now.world_to_view) / frames};
+std::vector<Step> steps_of(const std::vector<FramePose>& poses) {
+  std::vector<Step> steps;
+  for (size_t i = 1; i < poses.size(); ++i) {
+    if (!poses[i].pose || !poses[i - 1].pose) continue;
+    const Pose &before = *poses[i - 1].pose, &now = *poses[i].pose;
+    steps.push_back({poses[i].frame, glm::distance(before.position, now.position),
+                     angle_between(before.world_to_view, now.world_to_view),
+                     double(std::max(1, poses[i].frame - poses[i - 1].frame))});
+  }
+  return steps;
 }
 
-bool jumps(double step, double before, double after, double least) {
-  return step > least && step > least_ratio * std::max(before, after);
+/// The lower median per frame of some steps, so that one jump among them is not taken for usual; 0 of none.
+double usual(const std::vector<Step>& steps, size_t begin, size_t end, double Step::*measure) {
+  std::vector<double> values;
+  for (size_t i = begin; i < end; ++i) values.push_back(steps[i].*measure / steps[i].frames);
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + std::ptrdiff_t((values.size() - 1) / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+bool jumps(const std::vector<Step>& steps, size_t i, double Step::*measure, double least) {
+  const size_t first = i > steps_beside ? i - steps_beside : 0, last = std::min(steps.size(), i + 1 + steps_beside);
+  const double beside = std::max(usual(steps, first, i, measure), usual(steps, i + 1, last, measure));
+  return steps[i].*measure > least && steps[i].*measure / steps[i].frames > least_ratio * beside;
 }
 
 }  // namespace
 
 std::vector<int> cuts_in(const std::vector<FramePose>& poses, double radius) {
+  const std::vector<Step> steps = steps_of(poses);
   std::vector<int> cuts;
-  for (size_t i = 1; i < poses.size(); ++i) {
-    const std::optional<Step> step = step_to(poses, i);
-    if (!step) continue;
-    // At the ends of the shot, and next to another jump, one side says nothing.
-    const Step before = step_to(poses, i - 1).value_or(Step{}), after = step_to(poses, i + 1).value_or(Step{});
-    if (jumps(step->distance, before.distance, after.distance, radius) ||
-        jumps(step->angle, before.angle, after.angle, least_turn))
-      cuts.push_back(poses[i].frame);
-  }
+  // A single step has nothing beside it that tells what is usual.
+  for (size_t i = 0; i < steps.size() && steps.size() > 1; ++i)
+    if (jumps(steps, i, &Step::distance, radius) || jumps(steps, i, &Step::angle, least_turn))
+      cuts.push_back(steps[i].to);
   return cuts;
 }
 
 std::vector<FramePose> poses_of(const SequenceFiles& shot) {
   std::vector<FramePose> poses;
   for (const SequenceFrame& frame : shot.frames()) {
+    if (frame.source != frame.number) continue;  // held: it shows what the frame before it shows
     FramePose& found = poses.emplace_back(FramePose{frame.number, {}});
     try {
       const FrameFiles files = shot.open(frame);

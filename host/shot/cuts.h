@@ -15,11 +15,12 @@ struct FramePose {
   std::optional<Pose> pose;  ///< none: unknown
 };
 
-/// Numbers of the frames that begin after a cut: the camera moves or turns many times as far per frame as just before and just after, and by more
-/// than `radius` scene units or by 20 degrees. Next to an unknown pose nothing is a cut. `poses`: in the order of the frames.
+/// Numbers of the frames that begin after a cut: the camera moves or turns 5 times as far per frame as it usually does just before and just after,
+/// and by more than `radius` scene units or 20 degrees. What leads to or from an unknown pose is none. `poses`: in the order of the frames.
 std::vector<int> cuts_in(const std::vector<FramePose>& poses, double radius);
 
-/// The cameras of a shot's first view, from headers and camera files; nothing is decoded. A frame that cannot be opened has none.
+/// The cameras of a shot's first view, from headers and camera files; nothing is decoded. A frame that cannot be opened has none, and frames that
+/// are held are left out.
 std::vector<FramePose> poses_of(const SequenceFiles& shot);
 
 }  // namespace gloam

@@ -74,7 +74,10 @@ TEST_F(AutoBudget, WhatItTellsIsWhatItDoes) {
 // The look takes every second pixel of a frame of 192 x 108, and every fourth of a larger one.
 TEST_F(AutoBudget, WhatTheLookHasComputedIsFilledInAndIsTheSame) {
   ASSERT_EQ(gloam({"capture", "gallery", "-o", path("large.exr"), "--size", "384x216"}).status, 0);
-  for (const auto& [frame, resolution] : {std::pair("frame.exr", "half"), std::pair("large.exr", "quarter")}) {
+  ASSERT_EQ(gloam({"capture", "gallery", "-o", path("margin.exr"), "--size", "192x108", "--overscan", "10%"}).status,
+            0);
+  for (const auto& [frame, resolution] :
+       {std::pair("frame.exr", "half"), std::pair("large.exr", "quarter"), std::pair("margin.exr", "half")}) {
     const Result result = automatic({"--budget", "1000s", "--preset", "low", "--resolution", resolution}, frame);
     ASSERT_EQ(result.status, 0) << result.err;
     EXPECT_NE(result.json()["why"].get<std::string>().find(std::string(resolution) + ", from the look"),
@@ -92,9 +95,16 @@ TEST_F(AutoBudget, WhatTheLookHasComputedIsFilledInAndIsTheSame) {
       EXPECT_EQ(difference(*out.views[0].find(plane), *run.views[0].find(plane)).max, 0) << chosen;
     }
   }
-  // The other resolutions are no less there.
-  const Result other = automatic({"--budget", "1000s", "--preset", "low", "--resolution", "quarter"});
-  EXPECT_EQ(other.json()["why"].get<std::string>().find("from the look"), std::string::npos) << other.json()["why"];
+  // Not at another resolution, with normals made of all pixels' depth, or where a mask is to be used.
+  for (const Arguments& more :
+       {Arguments{"--resolution", "quarter"}, Arguments{"--resolution", "half", "--plane", "normal=none"},
+        Arguments{"--resolution", "half", "--mask", "always"}}) {
+    Arguments words = {"--budget", "1000s", "--preset", "low"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Result other = automatic(words);
+    ASSERT_EQ(other.status, 0) << other.err;
+    EXPECT_EQ(other.json()["why"].get<std::string>().find("from the look"), std::string::npos) << other.json()["why"];
+  }
 }
 
 TEST_F(AutoBudget, ATimeThatNothingFitsNamesTheCheapest) {

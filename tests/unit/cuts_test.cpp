@@ -52,6 +52,19 @@ TEST(Cuts, FramesLeftOutAreNone) {
   EXPECT_EQ(cuts_in({at(1, 0), at(2, 0.2), at(3, 7.8), at(4, 8)}, 0.5), Frames{3});
 }
 
+TEST(Cuts, ASingleStepTellsNothing) {
+  EXPECT_EQ(cuts_in({at(1, 0), at(2, 6)}, 0.5), Frames{});
+  EXPECT_EQ(cuts_in({at(1, 0), at(2, 6), {3, {}}}, 0.5), Frames{});
+}
+
+TEST(Cuts, OneAfterTheOtherAreBothFound) {
+  EXPECT_EQ(cuts_in({at(1, 0), at(2, 0.1), at(3, 20.1), at(4, 40.1), at(5, 40.2)}, 0.5), (Frames{3, 4}));
+}
+
+TEST(Cuts, TheLeastDistanceIsNotOneOfEachFrame) {
+  EXPECT_EQ(cuts_in({at(1, 0), at(11, 0, 1), at(21, 0, 2), at(31, 0, 182), at(41, 0, 183)}, 0.5), Frames{31});
+}
+
 TEST(Cuts, WhatIsUnknownIsNone) {
   std::vector<FramePose> poses = walk(10, 0.05);
   for (size_t i = 6; i < poses.size(); ++i) poses[i].pose->position.x += 4;

@@ -111,6 +111,7 @@ struct AutoPlan {
   std::vector<std::string> planes;       ///< to decode
   std::vector<std::vector<Plan>> plans;  ///< that may run, by effect
   std::vector<Unfit> unfit;              ///< planes of the frame that nothing is computed from
+  bool explains = false;                 ///< as `AutoPurpose` has it
 };
 
 /// What is to be made of a frame beside its effects.
