@@ -132,6 +132,22 @@ Settings few_samples(const Technique& technique) {
   return settings;
 }
 
+namespace {
+
+/// Planning refuses some choices for some techniques (plan/relevant_map.h).
+bool is_refused(const Technique& technique, const Frame& frame, const Settings& settings) {
+  try {
+    make_plan({.outputs = {technique.name}, .settings = settings}, plane_names(frame), "the rest is invented");
+  } catch (const MissingPlanes&) {
+    return false;
+  } catch (const UsageError&) {
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 std::vector<Settings> variants(const Technique& technique, Frame& frame) {
   const Settings few = few_samples(technique);
   std::vector<Settings> all = {{}};
@@ -145,7 +161,8 @@ std::vector<Settings> variants(const Technique& technique, Frame& frame) {
       for (int value = int(p.min); value <= int(p.max); ++value) {
         if (value == int(planned.values.number(p.name))) continue;
         const std::string text = p.type == Parameter::Type::boolean ? (value ? "on" : "off") : p.choices[size_t(value)];
-        all.push_back(few + Settings{{name, text}});
+        const Settings variant = few + Settings{{name, text}};
+        if (!is_refused(technique, frame, variant)) all.push_back(variant);
       }
     }
   }

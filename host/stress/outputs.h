@@ -41,7 +41,7 @@ Settings set_lengths(const Technique& technique, Frame& frame, const std::functi
 /// compile time grows with them. Empty if there are no presets.
 Settings few_samples(const Technique& technique);
 
-/// The defaults, and every other value of each choice and switch, one at a time, with few samples.
+/// The defaults, and every other value of each choice and switch, one at a time, with few samples, but for those that planning refuses.
 std::vector<Settings> variants(const Technique& technique, Frame& frame);
 
 /// Computed planes whose values lie in 0..1: AO, cones, masks.
