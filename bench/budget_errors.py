@@ -125,7 +125,7 @@ def told_in_words(told):
     return "; ".join(f"{' + '.join(c['outputs'])}, {c['preset']}, {RESOLUTIONS[c['resolution'] // 2]}" for c in told["chosen"]) or "nothing"
 
 
-def rows_of_budgets(scene, options):
+def rows_of_budgets(scene, options, combinations):
     """A row for no budget, and one for each."""
     everything = [option for effect, (technique, _) in zip(options, (t[0] for t in EFFECTS.values())) for option in options[effect]
                   if option[0] == f"{technique}, medium, full"]
@@ -134,7 +134,6 @@ def rows_of_budgets(scene, options):
     error, told = scene.automatic("--repeat", "7")
     yield (f"| {scene.name} | {all_ms:.1f} | {all_error:.4f} | none | {error:.4f} | {told['total_ms']:.1f} | "
            f"{told['classify_ms'] + told['glance_ms']:.1f} | | | | | {told_in_words(told)}, {100 * (1 - told['total_ms'] / all_ms):.0f} % saved |")
-    combinations = scene.combinations(options)
     for budget in (share * all_ms for share in BUDGETS):
         best = min(c for c in combinations if c[1] <= budget)
         error, told = scene.automatic("--budget", f"{budget:.4f}ms")
@@ -143,9 +142,8 @@ def rows_of_budgets(scene, options):
                f"{100 * (error / best[0] - 1):.0f} % | {told_in_words(told)} (best: {best[2]}) |")
 
 
-def rows_of_errors(scene, options):
+def rows_of_errors(scene, combinations):
     """A row for each error that is asked for."""
-    combinations = scene.combinations(options)
     least = min(combinations)[0]
     alone = max(scene.error({}), least)  # two ways to compute one figure
     for goal in (alone + gain * (least - alone) for gain in GAINS):
@@ -165,9 +163,10 @@ def print_tables(scenes, tables):
         options = scene.options()
         if tables:
             os.environ["GLOAM_EFFECT_ERRORS"] = str(tables / f"without-{scene.name}.json")
-        for row in rows_of_budgets(scene, options):
+        combinations = scene.combinations(options)
+        for row in rows_of_budgets(scene, options, combinations):
             print(row, flush=True)
-        of_errors += rows_of_errors(scene, options)
+        of_errors += rows_of_errors(scene, combinations)
     print("\n| frame | error asked for | said to be reached | expected | error | reached | ms | looking, ms | fastest fixed, ms | more | choice |")
     print("|---|---:|---|---:|---:|---|---:|---:|---:|---:|---|")
     print("\n".join(of_errors))

@@ -25,18 +25,8 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 /// Adds the planes of effects that the frame does not call for: nothing is occluded, nothing is reflected.
 void add_idle_planes(const Frame& frame, const std::vector<std::string>& outputs, Frame& out) {
   const Layout layout(frame.width(), frame.height());
-  for (View& view : out.views) {
-    for (const std::string& name : outputs) {
-      const PlaneKind kind = plane_kind(name);
-      Plane plane{name, {}};
-      for (size_t i = 0; i < kind.components.size(); ++i) {
-        Channel& channel = plane.channels.emplace_back(layout);
-        for (int y = 0; y < layout.height; ++y) std::fill_n(channel.row(y), layout.width, kind.outside);
-        channel.fill_padding(kind.outside);
-      }
-      view.planes[name] = std::move(plane);
-    }
-  }
+  for (View& view : out.views)
+    for (const std::string& name : outputs) view.planes[name] = empty_plane(name, layout);
 }
 
 /// Also finds the classes of the cells, for a picture of them.

@@ -25,7 +25,7 @@ class Spending {
   ChoiceProblem problem() const {
     const Glance& glance = means_.glance;
     ChoiceProblem problem{.model = glance.model(), .looking_ms = means_.looking_ms};
-    problem.uses = [&glance](const std::vector<std::string>& made) { return glance.used(made); };
+    problem.uses = glance.uses();
     for (size_t i = 0; i < effects_.size(); ++i) {
       problem.effects.emplace_back();
       for (size_t k = 0; k < effects_[i].options.size(); ++k)
@@ -143,9 +143,7 @@ std::string label_of(const std::vector<BudgetedEffect>& effects, const std::vect
 double lost_by(const BudgetedEffect& effect, const Glance& glance) {
   if (effect.chosen == left_out) return effect.change;
   const EffectOption& option = effect.options[size_t(effect.chosen)];
-  const std::vector<std::string>& used = glance.used(option.makes);
-  std::vector<UsedPlane> planes = option.planes_on(glance.seen());
-  std::erase_if(planes, [&](const UsedPlane& plane) { return !contains(used, plane.plane); });
+  std::vector<UsedPlane> planes = used_among(option.planes_on(glance.seen()), glance.uses());
   for (UsedPlane& plane : planes) plane.kept = 1 - plane.kept;
   return std::sqrt(mean_square_change(glance.model(), planes));
 }

@@ -1,7 +1,6 @@
 #include "auto/choice.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/lists.h"
 #include "planner/reason.h"
@@ -16,13 +15,7 @@ std::vector<UsedPlane> used_by(const ChoiceProblem& problem, const std::vector<i
     const auto& made = problem.effects[i][size_t(options[i])].makes;
     planes.insert(planes.end(), made.begin(), made.end());
   }
-  if (!problem.uses) return planes;
-  std::vector<std::string> names;
-  for (const UsedPlane& plane : planes) names.push_back(plane.plane);
-  std::sort(names.begin(), names.end());
-  const std::vector<std::string> used = problem.uses(names);
-  std::erase_if(planes, [&](const UsedPlane& plane) { return !contains(used, plane.plane); });
-  return planes;
+  return problem.uses ? used_among(std::move(planes), problem.uses) : planes;
 }
 
 /// The options of a choice by its number among all: 0 is the empty one.
@@ -49,13 +42,22 @@ std::vector<Figures> figures_of_all(const ChoiceProblem& problem) {
 
 }  // namespace
 
+std::vector<UsedPlane> used_among(std::vector<UsedPlane> planes, const UsedAmong& uses) {
+  std::vector<std::string> names;
+  for (const UsedPlane& plane : planes) names.push_back(plane.plane);
+  std::sort(names.begin(), names.end());
+  const std::vector<std::string> used = uses(names);
+  std::erase_if(planes, [&](const UsedPlane& plane) { return !contains(used, plane.plane); });
+  return planes;
+}
+
 Choice figures_of(const ChoiceProblem& problem, const std::vector<int>& options) {
   Choice choice{options, problem.looking_ms, 0, 0};
   for (size_t i = 0; i < options.size(); ++i)
     if (options[i] != left_out) choice.ms += problem.effects[i][size_t(options[i])].ms;
   const ExpectedSquare expected = expected_square(problem.model, used_by(problem, options));
-  choice.error = std::sqrt(expected.square);
-  choice.uncertainty = choice.error > 0 ? expected.deviation / (2 * choice.error) : 0;
+  choice.error = expected.error();
+  choice.uncertainty = expected.uncertainty();
   return choice;
 }
 

@@ -17,12 +17,15 @@ struct OptionFigures {
   double ms = 0;                 ///< on the device
 };
 
+/// Of planes that options make, sorted, those that the picture uses (gloam/composition.h).
+using UsedAmong = std::function<std::vector<std::string>(const std::vector<std::string>& made)>;
+std::vector<UsedPlane> used_among(std::vector<UsedPlane> planes, const UsedAmong& uses);
+
 /// The options of each effect, and what the picture gains by them.
 struct ChoiceProblem {
   std::vector<std::vector<OptionFigures>> effects;
   PictureModel model;
-  /// Of planes that options make, sorted, those that the picture uses (gloam/composition.h); null: all of them.
-  std::function<std::vector<std::string>(const std::vector<std::string>& made)> uses;
+  UsedAmong uses;         ///< null: all planes
   double looking_ms = 0;  ///< what looking has taken, whatever is chosen
 };
 

@@ -26,8 +26,9 @@ struct SeenEffect {
   int step = 1;
 };
 
-/// All options of an effect that the frame calls for. The one that `seen` is, is to be filled in from there. `technique`: what runs for it, which may refine the effect's. A preset or a
-/// resolution that was asked for stands. Options whose plan the frame does not allow are left out.
+/// All options of an effect that the frame calls for. `technique`: what runs for it, which may refine the effect's. A preset or a
+/// resolution that was asked for stands. Options whose plan the frame does not allow are left out. What `seen` has computed is to be
+/// filled in from there.
 std::vector<EffectOption> options_of(const Technique& technique, const EffectProbe& probe, const SeenEffect& seen);
 
 }  // namespace gloam

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "auto/choice.h"
 #include "gloam/composition.h"
 #include "gloam/device.h"
 #include "gloam/frame.h"
@@ -40,6 +41,10 @@ class Glance {
   Plane changes_by(const std::vector<std::string>& planes, const std::string& view) const;
   /// Of planes that are made, those that the picture uses. Kept: a choice asks again and again.
   const std::vector<std::string>& used(const std::vector<std::string>& made) const;
+  /// The same as a function, for as long as the glance lives.
+  UsedAmong uses() const {
+    return [this](const std::vector<std::string>& made) { return used(made); };
+  }
   /// Share of tiles of 4 x 4 pixels of the glance where a plane is not as where nothing is.
   double share_of(const std::string& plane) const;
   /// Device time so far.

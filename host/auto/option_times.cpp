@@ -45,13 +45,6 @@ void measure_options(const std::vector<const EffectOption*>& options, const Budg
   if (means.measuring) means.measuring(int(options.size()), int(options.size()));
 }
 
-Plane level(const std::string& name, const Layout& layout) {
-  Plane plane{name, {}};
-  const PlaneKind kind = plane_kind(name);
-  for (size_t c = 0; c < kind.components.size(); ++c) plane.channels.emplace_back(layout, kind.outside);
-  return plane;
-}
-
 /// What upsampling reads of a frame, and of the look.
 Frame with_seen(const Frame& frame, const Upsampling& left, const Plan& plan, const BudgetMeans& means) {
   Frame both = with_planes(frame, left.plan.inputs);
@@ -60,7 +53,7 @@ Frame with_seen(const Frame& frame, const Upsampling& left, const Plan& plan, co
     for (size_t i = 0; i < left.given.size(); ++i) {
       const std::string& name = left.given[i];
       Plane plane = &frame == &means.frame ? means.glance.parts().view(view.name).find(plan.outputs[i])->clone()
-                                           : level(name, reduced_size);
+                                           : empty_plane(name, reduced_size);
       plane.name = name;
       view.planes[name] = std::move(plane);
     }

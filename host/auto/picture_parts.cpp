@@ -7,17 +7,13 @@
 #include "auto/changes.h"
 #include "auto/weighing.h"
 #include "base/lists.h"
+#include "gloam/margin.h"
 
 namespace gloam {
 namespace {
 
 /// A part has this share of the image's width and height.
 constexpr double side_of_part = 1.0 / 3;
-
-/// Whole pixels.
-struct Window {
-  int left, top, width, height;
-};
 
 /// Sums of squares over everything left of and above a pixel.
 std::vector<double> sums_of_squares(const Channel& values) {
@@ -38,18 +34,18 @@ std::vector<double> sums_of_squares(const Channel& values) {
 Window strongest(const Channel& values) {
   const Layout& layout = values.layout();
   const auto side = [](int whole) { return std::max(1, int(std::lround(whole * side_of_part))); };
-  Window best{0, 0, side(layout.width), side(layout.height)};
+  const int width = side(layout.width), height = side(layout.height);
   const std::vector<double> sums = sums_of_squares(values);
   const auto sum = [&](int x, int y) { return sums[size_t(y) * size_t(layout.width + 1) + size_t(x)]; };
+  Window best{0, 0, width, height};
   double most = -1;
-  for (int y = 0; y + best.height <= layout.height; ++y) {
-    for (int x = 0; x + best.width <= layout.width; ++x) {
-      const int right = x + best.width, bottom = y + best.height;
+  for (int y = 0; y + height <= layout.height; ++y) {
+    for (int x = 0; x + width <= layout.width; ++x) {
+      const int right = x + width, bottom = y + height;
       const double here = sum(right, bottom) - sum(x, bottom) - sum(right, y) + sum(x, y);
       if (here <= most) continue;
       most = here;
-      best.left = x;
-      best.top = y;
+      best = {x, y, right, bottom};
     }
   }
   return best;
@@ -57,19 +53,13 @@ Window strongest(const Channel& values) {
 
 /// The window of an image with `scale` times as many pixels along each side.
 Window enlarged(const Window& window, int scale, const Layout& image) {
-  const int left = window.left * scale, top = window.top * scale;
-  return {left, top, std::min(window.width * scale, image.width - left),
-          std::min(window.height * scale, image.height - top)};
+  return {window.x0 * scale, window.y0 * scale, std::min(window.x1 * scale, image.width),
+          std::min(window.y1 * scale, image.height)};
 }
 
 Plane cut(const Plane& plane, const Window& window) {
-  Plane part{plane.name, {}};
-  for (const Channel& channel : plane.channels) {
-    Channel& to = part.channels.emplace_back(Layout(window.width, window.height), 0);
-    for (int y = 0; y < window.height; ++y)
-      std::copy_n(channel.row(window.top + y) + window.left, window.width, to.row(y));
-  }
-  return part;
+  const Layout& layout = plane.channels.front().layout();
+  return part_of(plane, {0, 0, layout.width, layout.height}, window);
 }
 
 std::vector<std::string> without_those_of(const std::vector<std::string>& effect, std::vector<std::string> planes) {
@@ -83,15 +73,15 @@ std::vector<std::string> seen_of(std::vector<std::string> planes, const Glance& 
 }
 
 /// The pictures have every `step`-th pixel of the frame.
-PicturePart part_of(const View& without, const View& with, int step, const Channel& changes, const Frame& frame) {
+PicturePart picture_part(const View& without, const View& with, int step, const Channel& changes, const Frame& frame) {
   const double width = frame.width(), height = frame.height();
   const Window small = strongest(changes),
                whole = enlarged(small, scale_of_glance(frame), Layout(frame.width(), frame.height()));
   const Window& window = step == 1 ? whole : small;
-  return {whole.left / width,
-          whole.top / height,
-          whole.width / width,
-          whole.height / height,
+  return {whole.x0 / width,
+          whole.y0 / height,
+          whole.width() / width,
+          whole.height() / height,
           cut(*without.find("color"), window),
           cut(*with.find("color"), window),
           step};
@@ -103,7 +93,7 @@ void take_parts(Outcome& outcome, const std::vector<std::string>& planes, const 
   for (const View& view : frame.views) {
     const Plane& changes = outcome.changes.emplace(view.name, glance.changes_by(planes, view.name)).first->second;
     outcome.parts.emplace(
-        view.name, part_of(without.view(view.name), with.view(view.name), step, changes.channels.front(), frame));
+        view.name, picture_part(without.view(view.name), with.view(view.name), step, changes.channels.front(), frame));
   }
 }
 

@@ -1,7 +1,6 @@
 #include "auto/weighing.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -132,24 +131,16 @@ double change_by(const Technique& technique, const Glance& glance) {
 }
 
 ExpectedError expected_of(const std::vector<Outcome>& outcomes, const Glance& glance) {
-  std::vector<std::string> made;
   std::vector<UsedPlane> planes;
   for (const Outcome& outcome : outcomes) {
     if (!outcome.runs()) continue;
     const PlanRequest& request = outcome.decision.request;
-    for (const std::string& plane : part_planes()) {
-      if (!contains(outcome.outputs, plane)) continue;
-      made.push_back(plane);
-      planes.push_back(plane_by(plane, request.preset, request.resolution, glance.seen()));
-    }
+    for (const std::string& plane : part_planes())
+      if (contains(outcome.outputs, plane))
+        planes.push_back(plane_by(plane, request.preset, request.resolution, glance.seen()));
   }
-  std::sort(made.begin(), made.end());
-  const std::vector<std::string>& used = glance.used(made);
-  std::erase_if(planes, [&](const UsedPlane& plane) { return !contains(used, plane.plane); });
-  const ExpectedSquare expected = expected_square(glance.model(), planes);
-  const double error = std::sqrt(expected.square);
-  return {error, error > 0 ? expected.deviation / (2 * error) : 0,
-          std::sqrt(expected_square(glance.model(), {}).square)};
+  const ExpectedSquare expected = expected_square(glance.model(), used_among(planes, glance.uses()));
+  return {expected.error(), expected.uncertainty(), expected_square(glance.model(), {}).error()};
 }
 
 void spend_budget(const Candidates& candidates, const AutoSettings& settings, const Glance& glance,

@@ -54,14 +54,6 @@ Plane one_frame(const Plane& depth, const Plane* reflection) {
   return frames;
 }
 
-/// Without an entry for any pixel.
-Plane empty_plane(const std::string& name, const Layout& layout) {
-  Plane plane{name, {}};
-  const PlaneKind& kind = plane_kind(name);
-  for (size_t i = 0; i < kind.components.size(); ++i) plane.channels.emplace_back(layout, kind.outside);
-  return plane;
-}
-
 View* find_view(Frame& frame, const std::string& name) {
   const auto same =
       std::find_if(frame.views.begin(), frame.views.end(), [&](const View& view) { return view.name == name; });

@@ -139,6 +139,13 @@ PlaneKind plane_kind(std::string_view name) {
   return kind(own, {""}, {own}, 0, PlaneKind::value, "");
 }
 
+Plane empty_plane(const std::string& name, const Layout& layout) {
+  const PlaneKind kind = plane_kind(name);
+  Plane plane{name, {}};
+  for (size_t i = 0; i < kind.components.size(); ++i) plane.channels.emplace_back(layout, kind.outside);
+  return plane;
+}
+
 const std::vector<StackKind>& stack_kinds() {
   static const std::vector<StackKind> kinds = [] {
     std::vector<StackKind> all = {

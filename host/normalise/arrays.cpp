@@ -40,7 +40,8 @@ void check_array(const std::string& name, std::span<const float> values, int wid
   if (!values.data()) throw Error("plane '{}' is a null pointer; give its {} values, or leave it out", name, needed);
 }
 
-Plane empty_plane(const std::string& name, const Layout& layout) {
+/// Its pixels have no values yet.
+Plane unfilled_plane(const std::string& name, const Layout& layout) {
   Plane plane{name, {}};
   for (size_t i = 0; i < plane_kind(name).components.size(); ++i) plane.channels.emplace_back(layout);
   return plane;
@@ -126,7 +127,7 @@ View view_from(const Arrays& arrays, LightCounts& light, std::vector<std::string
   std::vector<std::pair<Plane*, std::span<const float>>> sources;
   for (const auto& [name, values] : arrays.planes) {
     check_array(name, values, arrays.width, arrays.height, plane_kind(name).components.size());
-    sources.emplace_back(&view.planes.emplace(name, empty_plane(name, layout)).first->second, values);
+    sources.emplace_back(&view.planes.emplace(name, unfilled_plane(name, layout)).first->second, values);
   }
   const std::optional<Channel> planar = stated_depth(arrays, notes);
   const StoredSurfaces stored = stored_surfaces(arrays, planar ? &*planar : nullptr);
@@ -188,7 +189,7 @@ Frame frame_from(const Arrays& arrays) {
 
 Plane plane_from(const std::string& name, int width, int height, std::span<const float> values) {
   check_array(name, values, width, height, plane_kind(name).components.size());
-  Plane plane = empty_plane(name, Layout(width, height));
+  Plane plane = unfilled_plane(name, Layout(width, height));
   for_each_row(plane.channels.front().layout(), [&](int y) { fill_row(plane, values, y); });
   return plane;
 }

@@ -7,6 +7,11 @@
 
 namespace gloam {
 
+bool writes(const Pass& pass, const std::string& plane) {
+  return std::any_of(pass.writes.begin(), pass.writes.end(),
+                     [&](const Binding& written) { return written.plane == plane; });
+}
+
 std::set<std::string> planes_of(const Plan& plan) {
   std::set<std::string> planes;
   for (const PlannedPass& p : plan.passes) {

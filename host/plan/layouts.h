@@ -10,6 +10,8 @@
 
 namespace gloam {
 
+bool writes(const Pass& pass, const std::string& plane);
+
 /// Every plane and stack that a plan's passes touch.
 std::set<std::string> planes_of(const Plan& plan);
 

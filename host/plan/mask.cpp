@@ -152,11 +152,6 @@ class Restriction {
                                {{"REACH_X", by.columns}, {"REACH_Y", by.rows}}, scale));
   }
 
-  static bool writes(const Pass& pass, const std::string& plane) {
-    return std::any_of(pass.writes.begin(), pass.writes.end(),
-                       [&](const Binding& written) { return written.plane == plane; });
-  }
-
   const Plan& plan_;
   const Technique* elsewhere_;
   std::string source_;

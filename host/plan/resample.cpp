@@ -142,9 +142,8 @@ std::vector<PlannedPass> passes_to(std::vector<std::string> needed, const std::v
                                    const std::vector<PlannedPass>& passes) {
   std::vector<PlannedPass> left;
   for (auto planned = passes.rbegin(); planned != passes.rend(); ++planned) {
-    const std::vector<Binding>& writes = planned->pass.writes;
-    if (std::none_of(writes.begin(), writes.end(), [&](const Binding& b) { return contains(needed, b.plane); }))
-      continue;
+    const auto is_written = [&](const std::string& plane) { return writes(planned->pass, plane); };
+    if (std::none_of(needed.begin(), needed.end(), is_written)) continue;
     for (const Binding& read : planned->pass.reads)
       if (!contains(at_hand, read.plane)) add_new(needed, read.plane);
     left.insert(left.begin(), *planned);
@@ -191,10 +190,8 @@ std::optional<Upsampling> upsampling_of(const Plan& plan) {
   Upsampling left{plan, {}};
   for (const std::string& output : plan.outputs) left.given.push_back(reduced_name(output, plan.resolution));
   const auto is_made_there = [&](const std::string& plane) {
-    return std::any_of(plan.passes.begin(), plan.passes.end(), [&](const PlannedPass& planned) {
-      const std::vector<Binding>& writes = planned.pass.writes;
-      return std::any_of(writes.begin(), writes.end(), [&](const Binding& b) { return b.plane == plane; });
-    });
+    return std::any_of(plan.passes.begin(), plan.passes.end(),
+                       [&](const PlannedPass& planned) { return writes(planned.pass, plane); });
   };
   if (plan.resolution == 1 || !std::all_of(left.given.begin(), left.given.end(), is_made_there)) return {};
   left.plan.passes = passes_to(plan.outputs, left.given, plan.passes);

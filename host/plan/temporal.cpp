@@ -6,6 +6,7 @@
 #include "base/lists.h"
 #include "gloam/option.h"
 #include "gloam/planes.h"
+#include "plan/layouts.h"
 #include "temporal/params.h"
 
 namespace gloam {
@@ -68,11 +69,6 @@ constexpr int moved_tile = 16;
 static_assert(moved_tile % 16 == 0, "each row of lanes lies in one tile");
 // Of what moves, in tiles: the radius of AO on the screen is rarely longer.
 constexpr int reach = 16;
-
-bool writes(const Pass& pass, const std::string& plane) {
-  return std::any_of(pass.writes.begin(), pass.writes.end(),
-                     [&](const Binding& binding) { return binding.plane == plane; });
-}
 
 /// For the planes of the step itself, which no technique makes.
 Binding own(const std::string& name) { return {name, "temporal_" + name}; }

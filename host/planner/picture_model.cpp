@@ -140,6 +140,10 @@ double mean_square_change(const PictureModel& model, const std::vector<UsedPlane
   return std::max(square, 0.0);
 }
 
+double ExpectedSquare::error() const { return std::sqrt(square); }
+
+double ExpectedSquare::uncertainty() const { return square > 0 ? deviation / (2 * std::sqrt(square)) : 0; }
+
 ExpectedSquare expected_square(const PictureModel& model, const std::vector<UsedPlane>& used) {
   double square = model.truth + mean_square_change(model, used), variance = std::pow(model.truth_uncertainty, 2);
   for (const UsedPlane& plane : used) {

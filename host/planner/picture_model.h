@@ -45,6 +45,8 @@ struct PictureModel {
 /// Of a picture's error: the mean square that is expected, and the standard deviation of that.
 struct ExpectedSquare {
   double square = 0, deviation = 0;
+  double error() const;        ///< the root
+  double uncertainty() const;  ///< standard deviation of the root
 };
 
 /// |T - sum of the used changes|^2. Planes that the model does not know change nothing.

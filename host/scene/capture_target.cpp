@@ -11,13 +11,6 @@
 namespace gloam {
 namespace {
 
-Plane empty_plane(const std::string& name, const Layout& layout) {
-  const PlaneKind kind = plane_kind(name);
-  Plane plane{name, {}};
-  for (size_t i = 0; i < kind.components.size(); ++i) plane.channels.emplace_back(layout, kind.outside);
-  return plane;
-}
-
 Channel* add_channel(View& view, const std::string& name, const Layout& layout) {
   Plane& plane = view.planes.emplace(name, empty_plane(name, layout)).first->second;
   return &plane.channels.front();

@@ -173,10 +173,7 @@ Frame shoot(const Shot& shot, const Scene& scene, bool with_normals, std::option
 
 Plane& plane_of(View& view, const Layout& layout, const std::string& name) {
   Plane& plane = view.planes[name];
-  if (!plane.channels.empty()) return plane;
-  plane.name = name;
-  const PlaneKind kind = plane_kind(name);
-  for (size_t i = 0; i < kind.components.size(); ++i) plane.channels.emplace_back(layout, kind.outside);
+  if (plane.channels.empty()) plane = empty_plane(name, layout);
   return plane;
 }
 

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "gloam/frame.h"
+
 namespace gloam {
 
 /// The meaning of a plane's values, for readers and for the checks that run over every technique.
@@ -25,6 +27,9 @@ const std::vector<PlaneKind>& plane_kinds();
 /// The kind of a plane. A name that is not in the table has one component, a channel of the same name, and any value: a new
 /// technique needs no entry here.
 PlaneKind plane_kind(std::string_view name);
+
+/// A plane with the value outside at every pixel.
+Plane empty_plane(const std::string& name, const Layout& layout);
 
 /// 4 for "ao@4", a plane of every 4th pixel of every 4th row; 1 for one of all pixels.
 int resolution_in(std::string_view name);

@@ -43,7 +43,8 @@ struct ExplanationText {
 
 /// Draws a view's colours (its surfaces lit from the eye, if it has none), and beside them a panel for each effect that is wanted or
 /// has `cells`: the same in pale grey, with a tint on surfaces where the effect is called for. Where the picture is known, each effect has a row:
-/// this panel, and the outlined part of the picture without the effect and with it. Below the panels, a table of all effects. Text is broken between words. At most 2000 pixels wide. PNG, written atomically. Throws Error for a view without depth.
+/// this panel, and the outlined part of the picture without the effect and with it. Below the panels, a table of all effects. Text is broken
+/// between words. At most 2000 pixels wide. PNG, written atomically. Throws Error for a view without depth.
 void write_explanation(const std::filesystem::path& path, const View& view,
                        const std::vector<Explanation>& explanations, const ExplanationText& text = {});
 
